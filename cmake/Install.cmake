@@ -30,7 +30,7 @@ install(FILES ${pages}/strut.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL
 install(FILES ${pages}/strut DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions OPTIONAL)
 
 install(DIRECTORY tools DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
-        REGEX "\\.(cpp|hpp|cmake)$|CMakeLists.txt|__pycache__|/python$|/(prepare|test|packages(-[a-z]+)?)$" EXCLUDE)
+        REGEX "\\.(cpp|hpp|cmake)$|CMakeLists.txt|__pycache__|/python$|/(prepare|test|site|packages(-[a-z]+)?)$" EXCLUDE)
 install(DIRECTORY inputs DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
         REGEX "\\.(g|e|csv|png|log|restart|restart\\.old)$" EXCLUDE)  # what runs have left
 install(DIRECTORY docs DESTINATION ${STRUT_SHARE})

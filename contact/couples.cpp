@@ -29,7 +29,7 @@ void Couples::bring_to_present(const Kinematics& kinematics) {
   forces_.clear();
   if (!any_) return;
   for (int i = domain.interior; i < domain.owned; ++i) motions_[i] = {domain.current(i), kinematics.velocities[i]};
-  domain.halo.exchange<unchanged>(motions_);
+  domain.halo.exchange<Motion::reflect>(motions_);
 }
 
 Couples::Neighborhood Couples::of(const Kinematics& kinematics, int i, double arm) const {
@@ -56,7 +56,7 @@ void Couples::add_forces(const Domain& domain, const std::vector<Neighborhood>& 
     const Patch& patch = neighborhoods[k].patch;
     twists_[points_[k]] = {patch.per_couple * couples[k], domain.current(points_[k]) + patch.middle};
   }
-  domain.halo.exchange<unchanged>(twists_);
+  domain.halo.exchange<Twist::reflect>(twists_);
   forces_.assign(affected_.size(), Vector::Zero());
   for (std::size_t n = 0; n < affected_.size(); ++n) {
     const int i = affected_[n];

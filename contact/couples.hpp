@@ -39,9 +39,16 @@ class Couples {
  private:
   struct Motion {
     Vector place, velocity;
+    static void reflect(const Reflection& by, Motion& motion) {
+      reflect_place(by, motion.place), reflect_direction(by, motion.velocity);
+    }
   };
   struct Twist {
     Vector turn, middle;  // θ, and the position where the forces vanish
+    static void reflect(const Reflection& by, Twist& twist) {
+      reflect_place(by, twist.middle), reflect_direction(by, twist.turn);
+      twist.turn *= by.turn.determinant();  // of a mirror image it is the other way round
+    }
   };
   Vector place(const Domain& domain, int i) const { return i < domain.owned ? domain.current(i) : motions_[i].place; }
 

@@ -101,6 +101,24 @@ bool is_of(const Domain& domain, const BlockPair& blocks, int i) {
   return body == domain.blocks[blocks.first].body || body == domain.blocks[blocks.second].body;
 }
 
+// The pieces, and those behind periodic sides that are within `reach` of a box.
+std::vector<Piece> with_periods(std::vector<Piece> pieces, const Domain& domain, const Eigen::AlignedBox3d& mine,
+                                double reach) {
+  const std::size_t count = pieces.size();
+  const Images images(domain.periods, reach);
+  for (const int image : images.of_body(0)) {
+    for (std::size_t n = 0; n < count; ++n) {
+      Piece other = pieces[n];
+      const Vector at = images[image](other.at());
+      std::ranges::copy(at, other.place);
+      other.id = Images::id(other.id, image);
+      // Another rank may be near it, too.
+      if (domain.communicator.size() > 1 || mine.exteriorDistance(at) <= reach) pieces.push_back(other);
+    }
+  }
+  return pieces;
+}
+
 // n·M n is the mean height of the cell's surface over its projection along n; the trace of M is the mean over the
 // surface, each position along its own normal. They are equal for a plane.
 void add_piece(const Domain& domain, int i, std::vector<Piece>& pieces) {
@@ -124,7 +142,8 @@ void add_piece(const Domain& domain, int i, std::vector<Piece>& pieces) {
 void bend(const Domain& domain, double spacing, std::vector<Piece>& own) {
   Eigen::AlignedBox3d mine;
   for (const Piece& piece : own) mine.extend(piece.at());
-  const Near<Piece> all(own, mine, around * spacing, domain.communicator);
+  const double within = around * spacing;
+  const Near<Piece> all(with_periods(own, domain, mine, within), mine, within, domain.communicator);
   for (Piece& piece : own) {
     double turned = 0, way = 0;
     all.over(piece.at(), around * piece.spacing, piece.body, [&](const Piece& other, const Vector& apart) {
@@ -142,9 +161,9 @@ void bend(const Domain& domain, double spacing, std::vector<Piece>& own) {
   }
 }
 
-// Collective. The mirror images of bodies behind symmetry planes: contact does not see them, but ρ must include
-// them.
+// Collective. The images of bodies: contact does not see mirror images, but ρ must include them.
 Images images_of(const Domain& domain, double reach) {
+  if (!domain.periods.empty()) return {domain.periods, reach};
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Mirror& mirror : domain.mirrors) {
     Eigen::AlignedBox3d box;
@@ -263,6 +282,7 @@ OwnSurface own_surface(const Domain& domain, const BlockPair& blocks, double rea
   bend(domain, spacing, own);
   compare_with_face(domain, blocks, reach, own);
   const double within = std::max(tells / reach_in_spacings * reach, planes_within * spacing);
+  own = with_periods(std::move(own), domain, mine, within);
   look_at(domain, blocks, reach, Near<Piece>(std::move(own), mine, within, domain.communicator), surface);
   return surface;
 }

@@ -7,6 +7,7 @@
 #include "materials/deshpande_fleck.hpp"
 #include "materials/ductile.hpp"
 #include "materials/elastic.hpp"
+#include "materials/hyperelastic.hpp"
 #include "materials/j2.hpp"
 #include "materials/law.hpp"
 #include "materials/polymer_foam.hpp"
@@ -16,8 +17,8 @@
 
 namespace strut::materials {
 
-using AnyLaw =
-    std::variant<Elastic, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck, PolymerFoam, UserLaw>;
+using AnyLaw = std::variant<Elastic, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck, PolymerFoam,
+                            Hyperelastic, UserLaw>;
 
 // The law of a metal whose points may fail; nullopt if there is none.
 std::optional<AnyLaw> failing(const AnyLaw& metal, const Ductility& ductility);

@@ -1,20 +1,189 @@
 // strut-compare A B [--relative 1e-9] [--absolute 0]: compares two results, or two histories (tools/README.md).
 // Exit status: 0 equal within the tolerance, 1 different, 2 they cannot be compared.
 //   strut-compare one-rank.e four-ranks.e --relative 1e-12
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <limits>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/errors.hpp"
-#include "compare/difference.hpp"
 #include "compare/series.hpp"
 
 namespace {
 
 using namespace strut::compare;
+
+// Values may differ by the larger of `absolute` and `relative` times the largest magnitude, in either result, of that
+// quantity over the frame. The components of a vector or tensor (names that end in X, Y, Z, XX, XY, …) are one
+// quantity: a shear stress that is zero up to round-off is compared with the scale of the stress.
+struct Tolerance {
+  double relative = 1e-9;
+  double absolute = 0;
+};
+
+struct Difference {
+  std::string name;
+  double absolute = 0;  // the largest, at `frame` and `index`
+  double relative = 0;  // the largest of |a - b| / (magnitude over the frame)
+  std::size_t frame = 0;
+  std::size_t index = 0;
+  std::string place;  // the entity that `index` counts
+  bool within = true;
+};
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double distance(double a, double b) {
+  if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
+  const double gap = std::abs(a - b);
+  return std::isnan(gap) ? infinity : gap;
+}
+
+// The largest finite magnitude: NaN and infinity are no scale for other values.
+double magnitude(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) {
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
+// "ForceX" -> "Force", "StressXY" -> "Stress"
+std::string quantity(const std::string& name) {
+  const std::size_t last = name.find_last_not_of("XYZ");
+  if (last == std::string::npos || name.size() - last > 3) return name;
+  return name.substr(0, last + 1);
+}
+
+// The largest magnitude of each quantity in each frame.
+class Scales {
+ public:
+  void add(const Series& series) {
+    for (const Variable& variable : series.variables) {
+      std::vector<double>& scale = scales_[{variable.place, quantity(variable.name)}];
+      if (scale.size() < variable.frames.size()) scale.resize(variable.frames.size(), 0.0);
+      for (std::size_t f = 0; f < variable.frames.size(); ++f) {
+        scale[f] = std::max(scale[f], magnitude(variable.frames[f]));
+      }
+    }
+  }
+  const std::vector<double>& of(const Variable& variable) const {
+    return scales_.at({variable.place, quantity(variable.name)});
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, std::vector<double>> scales_;
+};
+
+const Variable* find(const Series& series, const Variable& like) {
+  const auto same = [&](const Variable& v) { return v.name == like.name && v.place == like.place; };
+  const auto found = std::find_if(series.variables.begin(), series.variables.end(), same);
+  return found == series.variables.end() ? nullptr : &*found;
+}
+
+std::size_t places(const Variable& variable) { return variable.frames.empty() ? 0 : variable.frames.front().size(); }
+
+Difference difference(const Variable& a, const Variable& b, const std::vector<double>& scales,
+                      const Tolerance& tolerance) {
+  Difference result;
+  result.name = a.name;
+  result.place = a.place;
+  for (std::size_t f = 0; f < std::min(a.frames.size(), b.frames.size()); ++f) {
+    const double allowed = std::max(tolerance.absolute, tolerance.relative * scales[f]);
+    for (std::size_t i = 0; i < a.frames[f].size(); ++i) {
+      const double gap = distance(a.frames[f][i], b.frames[f][i]);
+      if (gap == 0) continue;
+      result.within = result.within && gap <= allowed;
+      result.relative = std::max(result.relative, scales[f] > 0 ? gap / scales[f] : infinity);
+      if (gap <= result.absolute) continue;
+      result.absolute = gap;
+      result.frame = f;
+      result.index = i;
+    }
+  }
+  return result;
+}
+
+std::string time_problem(const Series& a, const Series& b, const Tolerance& tolerance) {
+  const std::size_t frames = std::min(a.times.size(), b.times.size());
+  for (std::size_t f = 0; f < frames; ++f) {
+    const double gap = distance(a.times[f], b.times[f]);
+    if (gap <= std::max(tolerance.absolute, tolerance.relative * std::abs(a.times[f]))) continue;
+    char text[120];
+    std::snprintf(text, sizeof text, "frame %zu is at t = %.17g s and %.17g s", f + 1, a.times[f], b.times[f]);
+    return text;
+  }
+  return "";
+}
+
+// Compares the positions of the nodes, which are not among the variables.
+std::string place_problem(const Series& a, const Series& b, const Tolerance& tolerance) {
+  double extent = 0;
+  for (const Series* one : {&a, &b}) {
+    for (const std::vector<double>& x : one->places) {
+      const auto [low, high] = std::minmax_element(x.begin(), x.end());
+      if (low != x.end()) extent = std::max(extent, *high - *low);
+    }
+  }
+  for (std::size_t i = 0; i < std::min(a.places[0].size(), b.places[0].size()); ++i) {
+    double gap = 0;
+    for (int c = 0; c < 3; ++c) gap = std::max(gap, distance(a.places[c][i], b.places[c][i]));
+    if (gap <= std::max(tolerance.absolute, tolerance.relative * extent)) continue;
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "node %zu is at (%.9g, %.9g, %.9g) m and at (%.9g, %.9g, %.9g) m before anything moves", i + 1,
+                  a.places[0][i], a.places[1][i], a.places[2][i], b.places[0][i], b.places[1][i], b.places[2][i]);
+    return text;
+  }
+  return "";
+}
+
+// The differences of all common variables over the common frames. NaN equals NaN, and differs infinitely from a number.
+std::vector<Difference> differences(const Series& a, const Series& b, const Tolerance& tolerance) {
+  Scales scales;
+  scales.add(a);
+  scales.add(b);
+  std::vector<Difference> all;
+  for (const Variable& variable : a.variables) {
+    const Variable* other = find(b, variable);
+    if (other == nullptr || places(variable) != places(*other)) continue;
+    all.push_back(difference(variable, *other, scales.of(variable), tolerance));
+  }
+  return all;
+}
+
+// Differences of structure: number of frames, their times, names, numbers of entities.
+std::vector<std::string> mismatches(const Series& a, const Series& b, const Tolerance& tolerance) {
+  std::vector<std::string> problems;
+  if (a.times.size() != b.times.size()) {
+    problems.push_back("the first has " + std::to_string(a.times.size()) + " frames, the second " +
+                       std::to_string(b.times.size()));
+  }
+  const std::string times = time_problem(a, b, tolerance);
+  if (!times.empty()) problems.push_back(times);
+  const std::string places_differ = place_problem(a, b, tolerance);
+  if (!places_differ.empty()) problems.push_back(places_differ);
+  for (const Variable& variable : a.variables) {
+    const Variable* other = find(b, variable);
+    if (other == nullptr) {
+      problems.push_back("only the first has the " + variable.place + " variable '" + variable.name + "'");
+    } else if (places(variable) != places(*other)) {
+      problems.push_back("'" + variable.name + "' has " + std::to_string(places(variable)) + " " + variable.place +
+                         "s and " + std::to_string(places(*other)));
+    }
+  }
+  for (const Variable& variable : b.variables) {
+    if (find(a, variable) != nullptr) continue;
+    problems.push_back("only the second has the " + variable.place + " variable '" + variable.name + "'");
+  }
+  return problems;
+}
 
 struct Request {
   std::vector<std::string> files;

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "base/errors.hpp"
 #include "contact/search/candidates.hpp"
 #include "contact/search/clusters.hpp"
 #include "topology/bounding_box.hpp"
@@ -38,6 +39,9 @@ Site site(const Candidate& c) {
   return site;
 }
 
+// Those one period away, numbered as in the domain (Images::id).
+Images images_in_contact(const Domain& domain) { return domain.periods.empty() ? Images() : Images(domain.periods, 0); }
+
 // The box of the points of a block over all ranks.
 Box box_of(const Kinematics& kinematics, const BlockPair& blocks, int block) {
   Box mine;
@@ -53,7 +57,7 @@ std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& bloc
                              SkinDistances& skins) {
   std::vector<int> near(blocks.points.size());
   std::iota(near.begin(), near.end(), 0);
-  if (blocks.self()) return near;
+  if (blocks.self() || !kinematics.domain.periods.empty()) return near;
   const Box first = box_of(kinematics, blocks, blocks.first), second = box_of(kinematics, blocks, blocks.second);
   std::erase_if(near, [&](int k) {
     const int i = blocks.points[k];
@@ -67,7 +71,34 @@ std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& bloc
   return near;
 }
 
-// The points blocks.points[k], k in `near`, and those near them on other ranks.
+// The images behind periodic sides of these candidates, where they are now.
+std::vector<Candidate> images_of(std::span<const Candidate> candidates, const Domain& domain, const Images& images) {
+  std::vector<Candidate> all;
+  for (const int image : images.of_body(0)) {
+    const Reflection &by = images[image], now = by.stretched(domain.halo.stretch());
+    for (Candidate c : candidates) {
+      Eigen::Map<Vector>(c.reference) += by.shift;
+      Eigen::Map<Vector>(c.current) += now.shift;
+      c.id = Images::id(c.id, image);
+      all.push_back(c);
+    }
+  }
+  return all;
+}
+
+// Collective. Throws Error if points are so far from each other that images a period away are not all that are near.
+void check_extent(const Domain& domain, const std::vector<Vector>& places, double reach) {
+  const Vector extent = common_box(box_around(places), domain.communicator).sizes();
+  for (const Period& period : domain.periods) {
+    const double length = period.length * domain.halo.stretch()[period.axis];
+    if (!(extent[period.axis] + reach > 2 * length)) continue;
+    throw Error("contact across periodic sides: points are " + std::to_string(extent[period.axis] / length) +
+                " periods apart along " + "xyz"[period.axis] +
+                "; contact knows images one period away, enough for points less than two periods apart");
+  }
+}
+
+// The points blocks.points[k], k in `near`, and those near them on other ranks or behind periodic sides.
 CandidatePool candidates_of(const Kinematics& kinematics, const BlockPair& blocks, const std::vector<int>& near,
                             const SkinDistances& skins, double radius) {
   CandidatePool candidates;
@@ -79,9 +110,18 @@ CandidatePool candidates_of(const Kinematics& kinematics, const BlockPair& block
   }
   candidates.owned = candidates.members.size();
   const double reach = (radius + 2 * skins.largest) * (1 + 1e-9);  // a pair at the limit is found by both ranks
-  const auto others = from_nearby_ranks<Candidate>(box_around(places), places, candidates.members, reach,
-                                                   kinematics.domain.communicator);
+  const Domain& domain = kinematics.domain;
+  if (!domain.periods.empty()) check_extent(domain, places, reach);
+  const Eigen::AlignedBox3d mine = box_around(places);
+  std::vector<Candidate> offered = candidates.members;
+  const std::vector<Candidate> images = images_of(offered, domain, images_in_contact(domain));
+  offered.insert(offered.end(), images.begin(), images.end());
+  for (const Candidate& image : images) places.push_back(place(image));
+  const auto others = from_nearby_ranks<Candidate>(mine, places, offered, reach, domain.communicator);
   candidates.members.insert(candidates.members.end(), others.begin(), others.end());
+  std::ranges::copy_if(images, std::back_inserter(candidates.members), [&](const Candidate& image) {
+    return !mine.isEmpty() && mine.exteriorDistance(place(image)) <= reach;
+  });
   return candidates;
 }
 
@@ -139,7 +179,8 @@ std::vector<int> paired_members(const CandidatePool& candidates, const Lists& li
   return members;
 }
 
-Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_body, const Communicator& communicator) {
+Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_body, const Domain& domain) {
+  const Communicator& communicator = domain.communicator;
   Pairs pairs;
   pairs.one_body = one_body;
   std::vector<int> owners;  // of the others
@@ -160,7 +201,8 @@ Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_bod
   for (const int partner : lists.members) pairs.partners.push_back(local[partner]);
   const std::span<const std::int64_t> ids(pairs.ids);
   if (communicator.sum(static_cast<std::int64_t>(owners.size())) > 0) {
-    pairs.halo.emplace(communicator, ids.first(pairs.owned.size()), ids.subspan(pairs.owned.size()), owners);
+    pairs.halo.emplace(communicator, ids.first(pairs.owned.size()), ids.subspan(pairs.owned.size()), owners,
+                       images_in_contact(domain));
   }
   return pairs;
 }
@@ -203,7 +245,7 @@ Pairs find_pairs(const Kinematics& kinematics, const BlockPair& blocks, double r
   IndexPairs found = pairs_in(candidates, may_touch);
   add_separated_pairs(kinematics.domain, counts, candidates, may_touch, found);
   const Lists lists = lists_of(candidates, found);
-  return pairs_of(candidates, lists, blocks.one_body, kinematics.domain.communicator);
+  return pairs_of(candidates, lists, blocks.one_body, kinematics.domain);
 }
 
 }  // namespace strut::contact

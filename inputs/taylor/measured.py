@@ -5,7 +5,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools/shared"))
-from strut_tools import field_in, history_of, install_missing, percent, run_deck, seconds_of_phase  # noqa: E402
+from exodus import field_in  # noqa: E402
+from strut_tools import history_of, install_missing, percent, run_deck, seconds_of_phase  # noqa: E402
 
 install_missing({"numpy": "python3-numpy", "netCDF4": "python3-netcdf4", "matplotlib": "python3-matplotlib"})
 import netCDF4  # noqa: E402

@@ -42,7 +42,7 @@ std::string noisy_cracks(const Situation& situation) {
     if (!block.is_quadratic() || !block.material.damage || block.material.damage->ductility) continue;
     text += "WARNING: block '" + block.name +
             "' breaks bonds by Formulation 'Quadratic Correspondence': its cracks take 0.6 to 1.6 of their fracture "
-            "energy, and the four law points of a cell, which have no mirror image of their own, decide on the order "
+            "energy, and the four integration points of a cell, which have no mirror image of their own, decide on the order "
             "of breaks: expect no symmetric crack. Another Formulation is within 10 %\n";
   }
   return text;

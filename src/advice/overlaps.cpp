@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "advice/checks.hpp"
-#include "contact/passing.hpp"
+#include "contact/interpenetration.hpp"
 #include "setup/found_points.hpp"
 #include "topology/nearby_ranks.hpp"
 #include "topology/neighbors/cell_grid.hpp"

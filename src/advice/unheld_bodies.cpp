@@ -118,7 +118,21 @@ Pieces pieces_of(const Domain& domain) {
   return pieces;
 }
 
+// A body that is bonded to its image one period away cannot turn this way from that: only around the axis.
+void hold_by_periods(const Domain& domain, Pieces& pieces) {
+  std::vector<Vector> periods(domain.sites.size(), Vector::Zero());  // of images
+  for (const ImagePoint& image : domain.halo.images()) periods[image.ghost] = image.by.period;
+  for (int i = domain.interior; i < domain.owned; ++i) {
+    domain.families.for_each(i, [&](int j) {
+      if (periods[j].isZero(0)) return;
+      const Vector along = periods[j].normalized();
+      pieces.all[pieces.of[i]].holds.bottomRightCorner<3, 3>() += Tensor::Identity() - along * along.transpose();
+    });
+  }
+}
+
 void hold_by_images(const Domain& domain, Pieces& pieces) {
+  if (!domain.periods.empty()) return hold_by_periods(domain, pieces);
   for (int i = 0; i < domain.owned; ++i) {
     for (const Mirror& mirror : domain.mirrors) {
       if (mirror.body != domain.blocks[domain.cloud.blocks[i]].body) continue;

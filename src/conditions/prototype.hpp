@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "conditions/condition.hpp"
+#include "conditions/initial_displacement.hpp"
 #include "conditions/initial_velocity.hpp"
+#include "conditions/periodic_sides.hpp"
 
 namespace strut {
 
@@ -17,13 +19,13 @@ concept ActsOnce = !ConditionType<T> && ActsInEquilibria<T> &&
   { prototype.values_at_points() } -> std::same_as<std::vector<Function>>;
   { prototype.set_initial_state(points, t, body) } -> std::same_as<void>;
 };
-static_assert(ActsOnce<InitialVelocity>);
+static_assert(ActsOnce<InitialVelocity> && ActsOnce<InitialDisplacement> && ActsOnce<PeriodicSides>);
 
 template <class Conditions>
 struct WithWhatActsOnce;
 template <class... Types>
 struct WithWhatActsOnce<std::variant<Types...>> {
-  using type = std::variant<InitialVelocity, Types...>;
+  using type = std::variant<InitialVelocity, InitialDisplacement, PeriodicSides, Types...>;
 };
 
 using ConditionPrototype = WithWhatActsOnce<Condition>::type;

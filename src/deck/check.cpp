@@ -1,6 +1,7 @@
 #include "deck/check.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "base/errors.hpp"
 #include "deck/convert.hpp"
@@ -159,10 +160,10 @@ class Checker {
           path, "unknown " + what + " for " + section_.selector + " '" + case_->name + "'; it belongs to " + owners);
     }
     const std::string guess = did_you_mean(name, valid);
-    if (valid.empty()) return problems_.add(path, "unknown " + what + "; expected none here");
     const std::vector<std::string> useful = with_effect(valid);
     const bool list_them = guess.empty() && useful.size() <= few;
-    problems_.add(path, "unknown " + what + guess + (list_them ? "; expected one of " + joined(useful) : ""));
+    const std::string expected = useful.empty() ? "; expected none here" : "; expected one of " + joined(useful);
+    problems_.add(path, "unknown " + what + guess + (list_them ? expected : ""));
   }
 
   std::vector<std::string> with_effect(std::vector<std::string> names) const {
@@ -193,6 +194,17 @@ class Checker {
 };
 
 }  // namespace
+
+void report_duplicates(const List& list, const std::string& path, Problems& problems) {
+  for (const List& section : list.lists) report_duplicates(section, path_to(path, section.name), problems);
+  std::multiset<std::string> names;
+  for (const Parameter& parameter : list.parameters) names.insert(parameter.name);
+  for (const List& section : list.lists) names.insert(section.name);
+  for (const std::string& name : std::set<std::string>(names.begin(), names.end())) {
+    const std::size_t count = names.count(name);
+    if (count > 1) problems.add(path_to(path, name), "given " + std::to_string(count) + " times; expected once");
+  }
+}
 
 Values check(const List& list, const Section& section, const std::string& path, Problems& problems) {
   return Checker(list, section, path, problems).run();

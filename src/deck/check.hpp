@@ -15,4 +15,7 @@ namespace strut::deck {
 // are made where the structs are built.
 Values check(const List& list, const Section& section, const std::string& path, Problems& problems);
 
+// Reports names that a list has twice, with those of its sections.
+void report_duplicates(const List& list, const std::string& path, Problems& problems);
+
 }  // namespace strut::deck

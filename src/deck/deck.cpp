@@ -7,9 +7,9 @@
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
 #include "deck/check.hpp"
-#include "deck/laws/user_library.hpp"
 #include "deck/peridigm/peridigm.hpp"
 #include "deck/sections/inertia.hpp"
+#include "deck/sections/loaded_libraries.hpp"
 #include "deck/sections/numbered_sets.hpp"
 #include "deck/sections/written_files.hpp"
 #include "deck/whole.hpp"
@@ -32,13 +32,21 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   deck.contact_models = read_contact_models(values);
   deck.interactions = read_interactions(values, deck.contact_models, problems);
   deck.conditions = read_conditions(values, problems);
+  check_initial_strains(deck.conditions, deck.materials, problems);
   add_numbered_sets(values, file, deck.node_sets, problems);
   deck.solver = read_solver(values, problems);
-  check_quasi_static(deck.solver, deck.conditions, deck.contact_models, deck.blocks, problems);
-  deck.output = read_output(values, deck.solver, problems);
-  deck.history = read_history(values, deck.solver, problems);
+  deck.next_solver = read_next_solver(values, deck.solver, problems);
+  const bool steps_follow = deck.next_solver.has_value();
+  check_quasi_static(deck.solver, deck.conditions, deck.contact_models, deck.blocks, steps_follow, problems);
+  Solver whole = deck.solver;
+  if (steps_follow) whole.final_time = deck.next_solver->final_time;
+  deck.output = read_output(values, whole, problems);
+  deck.history = read_history(values, whole, problems);
   add_probes(values, deck.node_sets);
   deck.restart = read_restart(values, file, problems);
+  if (steps_follow && deck.restart.enabled) {
+    problems.add("Restart", "beside 'Solver 2'; expected none: a run of two solvers writes no checkpoints");
+  }
   deck.watch = read_watch(values);
   return deck;
 }
@@ -77,6 +85,22 @@ void look_at_files(Deck& deck, Problems& problems) {
   check_files(written_files(deck), read_files(deck), problems);
 }
 
+// Decks of other programs would give an error a line; one tells where to look.
+void refuse_other_programs(List& deck, const fs::path& file, Problems& problems) {
+  const bool is_perilabs = find_list(deck, "Outputs") && (find_list(deck, "Models") || find_list(deck, "Physics"));
+  const bool is_cabanapds = find_list(deck, "num_cells") || find_list(deck, "timestep_safety_factor");
+  if (is_perilabs) {
+    problems.add("Models, Outputs",
+                 "this is a deck of PeriLab, whose words inputs/from-perilab.md translates; its lists "
+                 "of points and sets can be read as they are");
+  } else if (is_cabanapds) {
+    problems.add("num_cells", "this is an input of CabanaPD, whose words inputs/from-cabanapd.md translates");
+  } else {
+    return;
+  }
+  problems.raise(file.string());
+}
+
 // What only a program that runs strut can do without: it hands over a mesh, and takes the rows of the history.
 void check_runs_alone(const Deck& deck, Problems& problems) {
   if (deck.discretization.type == MeshType::memory) {
@@ -93,10 +117,13 @@ enum class FileCheck { no, yes };
 Deck parse(const std::string& text, const fs::path& file, FileCheck file_check, Problems& problems) {
   auto list = parse_xml_or_yaml(text, problems);
   if (!list) problems.raise(file.string());
-  translate_peridigm(*list, problems);
+  refuse_other_programs(*list, file, problems);
+  const bool from_peridigm = translate_peridigm(*list, file.parent_path(), problems);
+  report_duplicates(*list, "", problems);
   const Values values = check(*list, schema(), "", problems);
   Deck deck = build(values, file, problems);
   deck.text = text;
+  deck.from_peridigm = from_peridigm;
   if (file_check == FileCheck::yes) look_at_files(deck, problems);
   deck.notes = problems.notes();
   return deck;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,10 +40,12 @@ struct Deck {
   std::vector<Interaction> interactions;
   std::vector<Condition> conditions;
   Solver solver;
+  std::optional<Solver> next_solver;  // explicit steps after the equilibria of `solver`
   Output output;
   History history;
   Restart restart;
   Watch watch;
+  bool from_peridigm = false;      // written for that program: its meanings hold
   std::vector<std::string> notes;  // accepted input without an effect, or with another one than in another program
 };
 

@@ -1,6 +1,7 @@
 // The reference page of all keys, from the schema.
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 #include "base/errors.hpp"
 #include "base/math/function.hpp"
@@ -12,8 +13,6 @@
 namespace strut::deck {
 
 namespace {
-
-std::string or_dash(const std::string& text) { return text.empty() ? "—" : text; }
 
 std::string escaped(std::string text) {
   for (std::size_t i = text.find('|'); i != std::string::npos; i = text.find('|', i + 2)) text.insert(i, 1, '\\');
@@ -57,17 +56,124 @@ std::string default_text(const Key& key) {
   return key.fallback ? "`" + *key.fallback + "`" : "—";
 }
 
-std::string row(const Key& key) {
-  const std::string name = key.name == any_name ? key.name : "`" + key.name + "`";
-  return "| " + name + " | " + type_text(key) + " | " + or_dash(key.unit) + " | " + or_dash(range_text(key)) + " | " +
-         default_text(key) + " | " + escaped(key.meaning) + " |\n";
+// "real > 0, m"; of a choice its choices.
+std::string value_text(const Key& key) {
+  const std::string range = range_text(key);
+  std::string text = key.kind == Kind::choice ? range : type_text(key);
+  if (key.kind != Kind::choice && !range.empty()) text += " " + range;
+  return key.unit.empty() ? text : text + ", " + key.unit;
 }
 
-std::string table(const Section& section) {
-  if (section.keys.empty() && !section.any_key) return "";
-  std::string text = "\n| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
-  for (const Key& key : section.keys) text += row(key);
-  if (section.any_key) text += row(*section.any_key);
+std::string quoted(const std::string& name) { return name == any_name ? name : "`" + name + "`"; }
+
+bool alike(const Key& one, const Key& other) {
+  return value_text(one) == value_text(other) && default_text(one) == default_text(other) &&
+         one.meaning == other.meaning;
+}
+
+// With each single X of a name or meaning replaced: "Travel X", "Normal_X", "along X as".
+std::string along(const std::string& text, char axis) {
+  std::string other = text;
+  const auto letter = [&text](std::size_t i) {
+    return i < text.size() && std::isalpha(static_cast<unsigned char>(text[i]));
+  };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == 'X' && !(i > 0 && letter(i - 1)) && !letter(i + 1)) other[i] = axis;
+  }
+  return other;
+}
+
+using Keys = std::vector<Key>;
+
+const Key* find(const Keys& keys, const std::string& name) {
+  const auto found = std::find_if(keys.begin(), keys.end(), [&name](const Key& key) { return key.name == name; });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+// The names of the keys that are the same along x, y and z, of which `key` is the first; of others its own name.
+std::vector<std::string> names_along_axes(const Key& key, const Keys& keys) {
+  std::vector<std::string> names = {key.name};
+  for (const char axis : {'Y', 'Z'}) {
+    const std::string name = along(key.name, axis);
+    const Key* other = name == key.name ? nullptr : find(keys, name);
+    Key expected = key;
+    expected.meaning = along(key.meaning, axis);
+    if (other && alike(*other, expected)) names.push_back(name);
+  }
+  return names;
+}
+
+std::string row(const Key& key, const std::vector<std::string>& names) {
+  std::string text = "|";
+  for (const std::string& name : names) text += (name == names.front() ? " " : ", ") + quoted(name);
+  return text + " | " + value_text(key) + " | " + default_text(key) + " | " + escaped(key.meaning) + " |\n";
+}
+
+std::string table(const Keys& keys) {
+  std::string rows;
+  std::set<std::string> done;
+  for (const Key& key : keys) {
+    if (done.count(key.name)) continue;
+    const std::vector<std::string> names = names_along_axes(key, keys);
+    done.insert(names.begin(), names.end());
+    rows += row(key, names);
+  }
+  return rows.empty() ? "" : "\n| key | value | default | meaning |\n|---|---|---|---|\n" + rows;
+}
+
+// Keys that several cases have in common; they have a table of their own if they are this many.
+constexpr std::size_t least_shared = 4;
+struct SharedKeys {
+  std::vector<std::string> cases;
+  Keys keys;
+};
+
+std::vector<SharedKeys> shared_keys(const std::vector<Section>& cases) {
+  std::vector<SharedKeys> groups;
+  for (const Section& one : cases) {
+    for (const Key& key : one.keys) {
+      std::vector<std::string> owners;
+      for (const Section& other : cases) {
+        const Key* same = find(other.keys, key.name);
+        if (same && alike(*same, key)) owners.push_back(other.name);
+      }
+      if (owners.size() < 2 || owners.front() != one.name) continue;
+      const auto group =
+          std::find_if(groups.begin(), groups.end(), [&owners](const SharedKeys& g) { return g.cases == owners; });
+      (group == groups.end() ? groups.emplace_back(SharedKeys{owners, {}}) : *group).keys.push_back(key);
+    }
+  }
+  std::erase_if(groups, [](const SharedKeys& group) { return group.keys.size() < least_shared; });
+  return groups;
+}
+
+Keys own_keys(const Section& one, const std::vector<SharedKeys>& shared) {
+  Keys keys;
+  for (const Key& key : one.keys) {
+    const bool stands_below = std::any_of(shared.begin(), shared.end(), [&](const SharedKeys& group) {
+      const Key* same = find(group.keys, key.name);
+      return same && alike(*same, key);
+    });
+    if (!stands_below) keys.push_back(key);
+  }
+  return keys;
+}
+
+std::string section_text(const Section& section, const std::string& path);
+
+std::string cases_text(const Section& section, const std::string& path) {
+  const std::vector<SharedKeys> shared = shared_keys(section.cases);
+  const std::string heading = "\n### " + path + ", " + section.selector + " = ";
+  std::string text;
+  for (const Section& one : section.cases) {
+    text += heading + "\"" + one.name + "\"\n\n" + one.meaning + "\n" + table(own_keys(one, shared));
+    for (const Section& inner : one.sections) text += section_text(inner, path_to(path, inner.name));
+  }
+  for (const SharedKeys& group : shared) {
+    text += heading;
+    for (const std::string& name : group.cases) text += (name == group.cases.front() ? "\"" : ", \"") + name + "\"";
+    text += "\n" + table(group.keys);
+  }
   return text;
 }
 
@@ -75,11 +181,9 @@ std::string section_text(const Section& section, const std::string& path) {
   std::string text;
   if (!path.empty()) text += "\n## " + path + (section.required ? " (required)" : "") + "\n";
   if (!section.meaning.empty()) text += "\n" + section.meaning + "\n";
-  text += table(section);
-  for (const Section& one : section.cases) {
-    text += "\n### " + path + ", " + section.selector + " = \"" + one.name + "\"\n\n" + one.meaning + "\n" + table(one);
-    for (const Section& inner : one.sections) text += section_text(inner, path_to(path, inner.name));
-  }
+  Keys keys = section.keys;
+  if (section.any_key) keys.push_back(*section.any_key);
+  text += table(keys) + cases_text(section, path);
   for (const Section& inner : section.sections) text += section_text(inner, path_to(path, inner.name));
   return text;
 }
@@ -88,12 +192,11 @@ const char* const introduction = R"(# Keys of a deck
 
 Generated from the schema in `src/deck`; do not edit by hand. SI units throughout.
 
-A deck is an XML file of nested `<ParameterList name="…">`, the sections, and
-`<Parameter name="…" type="…" value="…"/>`, the keys. `Blocks > (any name) > Horizon` below is the key `Horizon` in a
-section, named as you like, in the section `Blocks`. Unknown keys and sections are errors, and so are values outside
-their range; all problems of a deck are reported at once.
+A deck is an XML file of nested sections, `<ParameterList name="…">`, and keys, `<Parameter name="…" type="…" value="…"/>`,
+or the same in YAML. `Blocks > (any name) > Horizon` is the key `Horizon` in a section of any name in the section `Blocks`.
+Unknown keys and sections, and values outside their range, are errors; a deck's errors are reported together.
 
-| type | written in the deck as |
+| value | written in the deck as |
 |---|---|
 | bool | type `bool`: `true` or `false` |
 | integer | type `int`, or `string` with an integer |
@@ -101,7 +204,7 @@ their range; all problems of a deck are reported at once.
 | reals | type `string` (`0 0.1 0.5`) or `Array(double)` (`{0, 0.1, 0.5}`) |
 | 3 reals | the same, three of them |
 | text | type `string` |
-| choice | type `string`: one of the choices in the column range, letter by letter |
+| `A`, `B` | type `string`: one of the choices, letter by letter |
 | axes | type `string`: one or several of `x`, `y`, `z`, e.g. `z`, `xy`, `xyz` |
 | names | type `string`, separated by blanks |
 | expression | a number, or type `string`: C-like, in x, y, z, t, e.g. `-50`, `1e-3*t`, `sin(x)` |

@@ -18,19 +18,18 @@ namespace strut::deck {
 
 const Section& schema() {
   static const std::string one_solver =
-      "unknown section; a deck has one 'Solver': runs in several parts are several decks";
+      "unknown section; at most two solvers follow each other, equilibria and explicit steps: 'Solver', 'Solver 2'";
   static const Section whole = {
       .meaning = "",
       .keys = {verbose_without_effect()},
       .sections = {discretization_section(), node_sets_section(), materials_section(), damage_models_section(),
-                   blocks_section(), contact_section(), conditions_section(), solver_section(), output_section(),
-                   history_section(), restart_section(), watch_section()},
+                   blocks_section(), contact_section(), conditions_section(), solver_section(), next_solver_section(),
+                   output_section(), history_section(), restart_section(), watch_section()},
       .hints = {{"Interfaces", "unknown section; there are no interfaces between elements"},
                 {"Problem",
                  "unknown section; this is the oldest layout of Peridigm's decks: its sections belong to the "
                  "deck itself"},
-                {"Solver1", one_solver},
-                {"Solver2", one_solver}}};
+                {"Solver 3", one_solver}}};
   return whole;
 }
 

@@ -3,7 +3,6 @@
 #include <Teuchos_StringInputSource.hpp>
 #include <Teuchos_XMLObject.hpp>
 #include <algorithm>
-#include <set>
 
 #include "deck/numbers.hpp"
 
@@ -39,16 +38,6 @@ void read_parameter(const Teuchos::XMLObject& xml, const std::string& path, List
 
 // Teuchos' own writer adds an empty <Validators/> to every list of a file.
 bool is_harmless(const Teuchos::XMLObject& xml) { return xml.getTag() == "Validators" && xml.numChildren() == 0; }
-
-void report_duplicates(const List& list, const std::string& path, Problems& problems) {
-  std::multiset<std::string> names;
-  for (const Parameter& parameter : list.parameters) names.insert(parameter.name);
-  for (const List& sublist : list.lists) names.insert(sublist.name);
-  for (const std::string& name : std::set<std::string>(names.begin(), names.end())) {
-    const std::size_t count = names.count(name);
-    if (count > 1) problems.add(path_to(path, name), "given " + std::to_string(count) + " times; expected once");
-  }
-}
 
 // Checks the text before Teuchos parses it, because Teuchos recurses for each level, and would take the words of a
 // document type for text. Quotes contain no tags: Teuchos rejects a '<' in a value.
@@ -90,7 +79,6 @@ List read_list(const Teuchos::XMLObject& xml, const std::string& path, Problems&
       problems.add(path_to(path, "<" + child.getTag() + ">"), "expected <ParameterList name=\"…\"> or <Parameter …/>");
     }
   }
-  report_duplicates(list, path, problems);
   return list;
 }
 

@@ -23,7 +23,7 @@ struct List {
   std::vector<List> lists;
 };
 
-// nullopt if the text is not well-formed XML; the problem is then reported with its line.
+// nullopt if the text is not well-formed XML; the problem is then reported with its line. Names given twice stay twice.
 std::optional<List> parse_xml(const std::string& text, Problems& problems);
 
 }  // namespace strut::deck

@@ -92,7 +92,7 @@ bool set_start(MaterialBlock& block, std::size_t place, MaterialPoint& point, co
 
 bool set_start_of_cell(Body& body, MaterialBlock& block, int k, const StepEnd& start) {
   bool holds = true;
-  for (int q = 0; q < block.places_a_point(); ++q) {
+  for (int q = 0; q < block.points_per_cell(); ++q) {
     const std::size_t place = block.place(k, q);
     const auto place_of = [&start](int j) { return start.place(j); };
     const Tensor F = body.fits->gradient_at(body, block.points[k], q, place_of);
@@ -129,7 +129,7 @@ void release(Body& body, MaterialBlock& block, int k) {
   const int i = block.points[k];
   if (block.is_quadratic()) {
     body.fits->drop(i);
-    for (int q = 0; q < block.places_a_point(); ++q) block.cells->set(block.place(k, q), MaterialPoint());
+    for (int q = 0; q < block.points_per_cell(); ++q) block.cells->set(block.place(k, q), MaterialPoint());
   } else {
     body.shape_inverse->set(i, Symmetric::Zero());
     release(body.points[i]);

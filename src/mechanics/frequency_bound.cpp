@@ -18,7 +18,7 @@ namespace {
 double frequency_bound_of_cell(const Body& body, const MaterialBlock& block, int k) {
   const int i = block.points[k];
   double fastest2 = 0;
-  for (int q = 0; q < block.places_a_point(); ++q) {
+  for (int q = 0; q < block.points_per_cell(); ++q) {
     const std::size_t place = block.place(k, q);
     const Tensor F = block.cells[place].deformation_gradient;
     const double speed2 = block.moduli(place).longitudinal() / (3 * body.density[i]);

@@ -97,7 +97,10 @@ void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetr
     for (int c = 0; c < 6; ++c) inverse[c] = rounded(inverse[c], size, 44);
   }
   if (block.is_ordinary()) {
-    block.ordinary[k].weighted_volume = K.trace();
+    // A point without neighbors has no force, whatever its weight: one that can be divided by.
+    const double horizon = body.domain.horizon(block.points[k]),
+                 alone = body.domain.volume(block.points[k]) * horizon * horizon;
+    block.ordinary[k].weighted_volume = K.trace() > 0 ? K.trace() : alone;
   } else {
     point.stabilization = coefficient_of(block.material.stabilization) * modulus / (K.trace() / 3);
   }
@@ -190,7 +193,7 @@ void set_viscous(const Domain& domain, MaterialBlock& block) {
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     const int i = block.points[k];
     const double edge = part_of_edge(domain, block, i) * std::cbrt(coincident_images(domain, i) * domain.volume(i));
-    for (int q = 0; q < block.places_a_point(); ++q) block.viscous[block.place(k, q)].edge = edge;
+    for (int q = 0; q < block.points_per_cell(); ++q) block.viscous[block.place(k, q)].edge = edge;
   }
 }
 

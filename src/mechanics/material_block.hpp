@@ -80,7 +80,7 @@ struct MaterialBlock {
 
   // Integration points: one per point, points[k] at k; or four per cell, in tiles of as many cells as there are SIMD
   // lanes. Interior and boundary points begin tiles of their own; the rest of their last tiles stays unused.
-  int places_a_point() const { return is_quadratic() ? 4 : 1; }
+  int points_per_cell() const { return is_quadratic() ? 4 : 1; }
   std::size_t integration_points() const {
     return is_quadratic() ? 4 * in_tiles(in_tiles(interior) + points.size() - interior) : points.size();
   }

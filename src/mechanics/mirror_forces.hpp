@@ -6,6 +6,12 @@
 
 namespace strut {
 
+// The sides of a domain: its mirrors, or its periods. Their number, and the index of one's condition in the deck.
+inline std::size_t side_count(const Domain& domain) { return domain.mirrors.size() + domain.periods.size(); }
+inline int number_of_side(const Domain& domain, std::size_t side) {
+  return domain.periods.empty() ? domain.mirrors[side].number : domain.periods[side].number;
+}
+
 // This rank's part of the force of each of domain.mirrors along its normal, N. Call it after a sum of forces, before
 // force_density changes. In a substep of `level`, only forces on `moved` are current, and only points that are due act.
 std::vector<Vector> mirror_forces(const Body& body, int level = 0, const std::vector<int>* moved = nullptr);

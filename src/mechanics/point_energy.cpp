@@ -8,7 +8,7 @@ namespace {
 
 template <class L>
 PointEnergy law_energy(const Body& body, const MaterialBlock& block, const L& law, std::size_t k) {
-  const int places = block.places_a_point();
+  const int places = block.points_per_cell();
   const bool carries_stress = steepness(body, block.points[k]) > 0;
   PointEnergy sum;
   for (int q = 0; q < places; ++q) {

@@ -39,12 +39,16 @@ void add(const Body& body, const MaterialBlock& block, int number, VelocityRange
   if (block.points.empty()) return;
   const Vector& v = body.velocity[block.points.front()];
   range.add(v);
+  for (const Period& period : body.domain.periods) {
+    if (!period.stretch.is_constant()) range.spoil();  // images move otherwise
+  }
   for (const Mirror& mirror : body.domain.mirrors) {
     if (mirror.body == number) range.add(Reflection::by(mirror).turn * v);
   }
 }
 
 bool is_in_place(const Body& body, const MaterialBlock& block) {
+  if (body.domain.halo.stretch() != Vector::Ones()) return false;
   return std::all_of(block.points.begin(), block.points.end(), [&](int i) {
     return (body.domain.sites[i].current.head<3>() == body.domain.sites[i].reference.head<3>()).all();
   });

@@ -43,7 +43,7 @@ void compare_reference(Archive& archive, const Body& body) {
 }
 
 Places places_of(const MaterialBlock& block) {
-  return {block.places_a_point(), [&block](std::size_t k, int q) { return block.place(k, q); }};
+  return {block.points_per_cell(), [&block](std::size_t k, int q) { return block.place(k, q); }};
 }
 
 }  // namespace

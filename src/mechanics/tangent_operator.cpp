@@ -29,7 +29,7 @@ template <class Weight>
 void set_tangent_cells(const Body& body, const MaterialBlock& block, const LaneGroup& group, const Site* field,
                        Weight weight, const std::vector<PointTangent>* tangents, std::vector<QuadraticState>& result) {
   QuadraticCells cells(group, *body.fits, body.domain.sites);
-  cells.take(bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, field, body.fits->multipliers(), weight));
+  cells.take(bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, field, body.fits->multipliers(), weight, {}));
   std::array<small::Tensor3<Lanes>, 4> dF, dP;
   for (int q = 0; q < 4; ++q) dF[q] = cells.gradient_at(q), dP[q] = bonds::zero_tensor<Lanes>();
   for (int l = 0; l < group.count; ++l) {

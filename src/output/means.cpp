@@ -54,22 +54,22 @@ std::vector<std::string> Mean::columns() const {
 std::vector<double> Mean::values(const Body& body) const {
   const std::vector<double> numbers = number_.of(body);
   const int count = layers_.count();
-  std::vector<double> sums(2 * static_cast<std::size_t>(count));  // values times volumes, then volumes
+  std::vector<double> sums(2 * static_cast<std::size_t>(count));  // values (times volumes), then volumes
   for (int i = 0; i < body.owned(); ++i) {
     const int layer = layers_.of(body, i);
     if (layer < 0) continue;
-    sums[layer] += body.domain.volume(i) * numbers[i];
+    sums[layer] += (is_sum(name_) ? 1 : body.domain.volume(i)) * numbers[i];
     sums[count + layer] += body.domain.volume(i);
   }
   body.domain.communicator.sum(sums);
   std::vector<double> means(count);
-  for (int layer = 0; layer < count; ++layer) means[layer] = sums[layer] / sums[count + layer];
+  for (int layer = 0; layer < count; ++layer) means[layer] = sums[layer] / (is_sum(name_) ? 1 : sums[count + layer]);
   return means;
 }
 
 namespace {
 
-// Parsed "Mean_X(set)": a number, and its set of points.
+// Parsed "Mean_X(set)" or "Sum_X(set)": a number, and its set of points.
 struct Asked {
   PointNumber number;
   std::string set;  // or block, or profile; "" for all points
@@ -80,10 +80,11 @@ Asked asked_for(const std::vector<Observable>& all, const std::vector<deck::Prof
                 const std::string& name, const std::string& path) {
   const std::size_t bracket = name.back() == ')' ? name.find('(') : std::string::npos;
   const std::string whole = name.substr(0, bracket);
-  const auto number = whole.starts_with("Mean_") ? PointNumber::find(all, whole.substr(5)) : std::nullopt;
+  const auto number = Mean::is_name(whole) ? PointNumber::find(all, whole.substr(whole.find('_') + 1)) : std::nullopt;
   if (!number) {
-    throw Error(path + ": expected Mean_ and the name of a variable" +
-                did_you_mean(whole, names_of_numbers(all, {"Mean_"})) + "; variables are " + joined(names_of(all)));
+    throw Error(path + ": expected Mean_ or Sum_ and the name of a variable" +
+                did_you_mean(whole, names_of_numbers(all, {"Mean_", "Sum_"})) + "; variables are " +
+                joined(names_of(all)));
   }
   if (bracket == std::string::npos) return {*number, "", nullptr};
   const std::string set = name.substr(bracket + 1, name.size() - bracket - 2);

@@ -1,4 +1,5 @@
-// Means over the points of a set, or over the layers of a profile, for the history: "Mean_X(foam)".
+// Means and sums over the points of a set, or over the layers of a profile, for the history: "Mean_X(foam)",
+// "Sum_X(foam)".
 #pragma once
 
 #include <span>
@@ -30,11 +31,12 @@ class Layers {
   int count_ = 1;
 };
 
-// A mean over each layer, weighted by reference volumes.
+// A mean over each layer, weighted by reference volumes, or the plain sum.
 class Mean {
  public:
   Mean(std::string name, PointNumber number, Layers layers)
       : name_(std::move(name)), number_(std::move(number)), layers_(std::move(layers)) {}
+  static bool is_name(const std::string& name) { return name.starts_with("Mean_") || is_sum(name); }
 
   // The same under another name: of a single layer.
   Mean named(std::string name) && {
@@ -47,6 +49,8 @@ class Mean {
   std::vector<double> values(const Body& body) const;  // collective
 
  private:
+  static bool is_sum(const std::string& name) { return name.starts_with("Sum_"); }
+
   std::string name_;
   PointNumber number_;
   Layers layers_;

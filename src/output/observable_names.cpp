@@ -96,8 +96,8 @@ Extreme::Extreme(const std::vector<Observable>& all, const PointCloud& cloud, co
   const bool extreme = kind == "Max_" || kind == "Min_";
   const std::optional<PointNumber> found = extreme ? PointNumber::find(all, whole.substr(4)) : std::nullopt;
   if (!found) {
-    throw Error(where + " > " + name + ": expected Max_, Min_ or Mean_ and the name of a variable" +
-                did_you_mean(whole, names_of_numbers(all, {"Max_", "Min_", "Mean_"})) + "; variables are " +
+    throw Error(where + " > " + name + ": expected Max_, Min_, Mean_ or Sum_ and the name of a variable" +
+                did_you_mean(whole, names_of_numbers(all, {"Max_", "Min_", "Mean_", "Sum_"})) + "; variables are " +
                 joined(names_of(all)));
   }
   if (bracket != std::string::npos) {

@@ -24,7 +24,7 @@ std::span<const double> components(const Matrix& matrix) {
 
 // Makes an observable from a function of body and point that returns a double, Vector, Symmetric or Tensor (by rows).
 template <class Value>
-Observable observable(std::string name, std::string meaning, Value value, bool nodal = false) {
+Observable observable(std::string name, std::string unit, std::string meaning, Value value, bool nodal = false) {
   const auto fill = [value](const Body& body, std::vector<double>& out) {
     out.clear();
     for (int i = 0; i < body.owned(); ++i) {
@@ -35,7 +35,7 @@ Observable observable(std::string name, std::string meaning, Value value, bool n
   using Result = decltype(value(std::declval<const Body&>(), 0));
   int count = 1;
   if constexpr (!std::is_same_v<Result, double>) count = static_cast<int>(Result::SizeAtCompileTime);
-  return {std::move(name), count, nodal, std::move(meaning), fill};
+  return {std::move(name), count, nodal, std::move(meaning), fill, std::move(unit)};
 }
 
 // Transposed: Eigen stores columns, files have rows.
@@ -64,7 +64,7 @@ Observable weighted_volume() {
       }
     }
   };
-  return {"Weighted_Volume", 1, false, "Σ ω |ξ|² V = tr K, m⁵", fill};
+  return {"Weighted_Volume", 1, false, "Σ ω |ξ|² V = tr K over the family", fill, "m⁵"};
 }
 
 // θ of ordinary points; by correspondence tr U − 3, which is the same under an isotropic stretch.
@@ -79,43 +79,44 @@ Observable dilatation() {
       }
     }
   };
-  return {"Dilatation", 1, false, "θ of ordinary points, tr U − 3 of others", fill};
+  return {"Dilatation", 1, false, "θ at ordinary points, tr U − 3 at others", fill, "1"};
 }
 
 std::vector<Observable> kinematic() {
   return {
       observable(
-          "Displacement", "y − X, m", [](const Body& b, int i) { return b.displacement(i); }, true),
+          "Displacement", "m", "y − X", [](const Body& b, int i) { return b.displacement(i); }, true),
       observable(
-          "Coordinate_X", "of the current position y, m", [](const Body& b, int i) { return b.current(i)[0]; }, true),
+          "Coordinate_X", "m", "x component of the current position y",
+          [](const Body& b, int i) { return b.current(i)[0]; }, true),
       observable(
-          "Coordinate_Y", "of y, m", [](const Body& b, int i) { return b.current(i)[1]; }, true),
+          "Coordinate_Y", "m", "y component of y", [](const Body& b, int i) { return b.current(i)[1]; }, true),
       observable(
-          "Coordinate_Z", "of y, m", [](const Body& b, int i) { return b.current(i)[2]; }, true),
+          "Coordinate_Z", "m", "z component of y", [](const Body& b, int i) { return b.current(i)[2]; }, true),
       observable(
-          "Radial_Distance", "of y from the z axis, m",
+          "Radial_Distance", "m", "distance of y from the z axis",
           [](const Body& b, int i) { return std::hypot(b.current(i)[0], b.current(i)[1]); }, true),
       observable(
-          "Velocity", "at the time of the frame, m/s",
+          "Velocity", "m/s", "velocity at the time of the frame",
           [](const Body& b, int i) -> Vector { return 0.5 * (b.previous_velocity[i] + b.velocity[i]); }, true),
       observable(
-          "Force", "internal force and loads, N; where points are subcycled, what acts at the end of a step",
+          "Force", "N", "internal force and loads; with substeps, those at the end of the step",
           [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volume(i); }, true),
-      observable("Deformation_Gradient", "F",
+      observable("Deformation_Gradient", "1", "F",
                  [](const Body& b, int i) { return by_rows(b.points[i].deformation_gradient); }),
-      observable("Rotation_Tensor", "R of F = V R",
+      observable("Rotation_Tensor", "1", "R of F = V R",
                  [](const Body& b, int i) { return by_rows(b.points[i].rotation.tensor()); }),
-      observable("Left_Stretch_Tensor", "V of F = V R",
+      observable("Left_Stretch_Tensor", "1", "V of F = V R",
                  [](const Body& b, int i) {
                    const MaterialPoint& p = b.points[i];
                    return symmetric_part(p.deformation_gradient * p.rotation.tensor().transpose());
                  }),
-      observable("Residual", "of F: the root mean square of |y_j − y_i − F ξ| over that of |ξ| in the family",
+      observable("Residual", "1", "root mean square of |y_j − y_i − F ξ| over that of |ξ| in the family",
                  [](const Body& b, int i) {
                    const double scale = trace_of_shape(b, i);
                    return scale > 0 ? std::sqrt(std::max(0.0, b.residual[i]) / scale) : 0.0;
                  }),
-      observable("Jacobian", "det F",
+      observable("Jacobian", "1", "det F",
                  [](const Body& b, int i) { return b.points[i].deformation_gradient.determinant(); }),
       dilatation(),
   };
@@ -123,10 +124,10 @@ std::vector<Observable> kinematic() {
 
 std::vector<Observable> stresses() {
   return {
-      observable("Cauchy_Stress", "σ, Pa", cauchy),
-      observable("Von_Mises_Stress", "√(3/2 s:s), Pa",
+      observable("Cauchy_Stress", "Pa", "σ", cauchy),
+      observable("Von_Mises_Stress", "Pa", "√(3/2 s:s), s the deviator of σ",
                  [](const Body& b, int i) { return von_mises(b.points[i].stress); }),
-      observable("Pressure", "−tr σ/3, Pa", [](const Body& b, int i) { return -trace(b.points[i].stress) / 3; }),
+      observable("Pressure", "Pa", "−tr σ/3", [](const Body& b, int i) { return -trace(b.points[i].stress) / 3; }),
   };
 }
 
@@ -135,22 +136,22 @@ Observable fragment() {
     const std::vector<std::int64_t> ids = fragment_ids(body);
     out.assign(ids.begin(), ids.end());
   };
-  return {"Fragment", 1, false, "the least id of the points that bonds lead to", fill};
+  return {"Fragment", 1, false, "number of the fragment: the smallest id of the points that bonds connect", fill, "1"};
 }
 
 std::vector<Observable> fixed_properties() {
   return {
-      observable("Volume", "reference volume, m³", [](const Body& b, int i) { return b.domain.volume(i); }),
-      observable("Density", "in the reference state, kg/m³",
+      observable("Volume", "m³", "reference volume", [](const Body& b, int i) { return b.domain.volume(i); }),
+      observable("Density", "kg/m³", "density in the reference state",
                  [](const Body& b, int i) { return b.block_of(i).material.density; }),
-      observable("Horizon", "δ, m", [](const Body& b, int i) { return b.domain.horizon(i); }),
+      observable("Horizon", "m", "δ", [](const Body& b, int i) { return b.domain.horizon(i); }),
       weighted_volume(),
-      observable("Number_Of_Neighbors", "size of the family",
+      observable("Number_Of_Neighbors", "1", "number of points in the family",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.families.size(i)); }),
       fragment(),
-      observable("Element_Id", "the mesh's own number",
+      observable("Element_Id", "1", "number of the element (or node) in the mesh",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.cloud.element_ids[i]); }),
-      observable("Proc_Num", "the rank that owns the point",
+      observable("Proc_Num", "1", "rank that owns the point",
                  [](const Body& b, int) { return static_cast<double>(b.domain.communicator.rank()); }),
   };
 }
@@ -179,7 +180,7 @@ Observable declared(const FieldPart& part) {
     });
     for (const MaterialBlock& block : body.blocks) {
       with_part(block.fields, variable, [&](const AnyField& field, int first) {
-        const int places = field.at == At::point ? 1 : block.places_a_point();
+        const int places = field.at == At::point ? 1 : block.points_per_cell();
         for (std::size_t k = 0; k < block.points.size(); ++k) {
           for (int c = 0; c < width; ++c) {
             double sum = 0;
@@ -258,16 +259,6 @@ std::vector<Observable> observables(const Body& body) {
 
 std::vector<Observable> observables_of_all_laws() { return with_states(states_of_all_laws()); }
 
-// The declared unit, or the part of the meaning after a comma that is one of these.
-std::string unit_of(const Observable& observable) {
-  if (!observable.unit.empty()) return observable.unit;
-  static const std::vector<std::string> units = {"N/m³", "kg/m³", "m/s", "m³", "m⁵", "N", "m", "Pa"};
-  for (const std::string& unit : units) {
-    const std::size_t at = observable.meaning.find(", " + unit);
-    const std::size_t end = at + 2 + unit.size();
-    if (at != std::string::npos && (end == observable.meaning.size() || observable.meaning[end] == ';')) return unit;
-  }
-  return "1";
-}
+std::string unit_of(const Observable& observable) { return observable.unit.empty() ? "1" : observable.unit; }
 
 }  // namespace strut

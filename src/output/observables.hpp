@@ -16,13 +16,13 @@ struct Observable {
   std::string name;
   int components = 1;  // 1, 3, 6 or 9, as Exodus output names them
   bool nodal = false;
-  std::string meaning;  // with its unit, for the page
+  std::string meaning;  // for the page
   // Writes the components of every owned point, point by point.
   std::function<void(const Body&, std::vector<double>&)> fill;
-  std::string unit = {};  // of a declared field; empty: the unit is in the meaning
+  std::string unit = {};
 };
 
-std::string unit_of(const Observable& observable);  // from its meaning; "1" if it has none
+std::string unit_of(const Observable& observable);  // "1" if it has none
 
 // All observables of a body: the fixed ones and the state variables of its laws (zero in blocks whose law has none).
 std::vector<Observable> observables(const Body& body);

@@ -173,7 +173,7 @@ void look_up(const deck::Deck& deck, const std::vector<Observable>& all, const P
     contact_component(cloud.block_names, name);
   } else if (const std::string mean = mean_of_probe(deck.node_sets, name); !mean.empty()) {
     check_mean(all, deck.history.profiles, cloud, mean, where);
-  } else if (name.starts_with("Mean_")) {
+  } else if (Mean::is_name(name)) {
     check_mean(all, deck.history.profiles, cloud, name, where);
   } else {
     extreme(all, cloud, communicator, name);
@@ -232,7 +232,7 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
         variables.contacts.push_back(contact_force(contact, body.domain.cloud.block_names, name));
       } else if (const std::string mean = mean_of_probe(deck.node_sets, name); !mean.empty()) {
         variables.means.push_back(mean_of(all, deck.history.profiles, body, mean, where).named(name));
-      } else if (name.starts_with("Mean_")) {
+      } else if (Mean::is_name(name)) {
         variables.means.push_back(mean_of(all, deck.history.profiles, body, name, where));
       } else {
         variables.extremes.push_back(extreme(all, body.domain.cloud, body.domain.communicator, name));

@@ -9,7 +9,6 @@
 #include "base/errors.hpp"
 #include "checkpoint/checkpoint.hpp"
 #include "deck/deck.hpp"
-#include "io/netcdf/trial_read.hpp"
 #include "output/variables.hpp"
 #include "run/input.hpp"
 #include "run/report.hpp"
@@ -114,7 +113,6 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
 void check(const std::filesystem::path& deck_file, const Communicator& communicator) {
   deck::Problems problems;
   const deck::Deck deck = deck::read(deck_file, communicator, problems);
-  io::set_trial_reads(deck.discretization.trial_reads);
   check_resumption(deck, checkpoint_exists(deck, communicator), true, problems);
   Scene scene = set_up(deck, checked_mesh(deck, problems, communicator), communicator);
   const OutputVariables variables = output_variables_of(deck, scene.body, scene.contact);

@@ -8,7 +8,7 @@
 #include "base/errors.hpp"
 #include "conditions/crossing.hpp"
 #include "conditions/tool_gap.hpp"
-#include "contact/passing.hpp"
+#include "contact/interpenetration.hpp"
 #include "contact/undeclared.hpp"
 
 namespace strut {
@@ -115,10 +115,10 @@ void Monitor::check_step(const CentralDifference& solver) {
   }
 }
 
-void Monitor::check_passing(double time, const contact::Contact& contact) {
-  if (!contact.any() || limits_.passing >= 1 || told_[passing] || time < next_look_) return;
+void Monitor::check_interpenetration(double time, const contact::Contact& contact) {
+  if (!contact.any() || limits_.interpenetration >= 1 || told_[interpenetration] || time < next_look_) return;
   next_look_ = time + pause_;
-  const auto found = contact::find_passing(body_.domain, contact, limits_.passing);
+  const auto found = contact::find_interpenetration(body_.domain, contact, limits_.interpenetration);
   if (!found) return;
   std::ostringstream text;
   if (found->point >= 0) {
@@ -130,7 +130,7 @@ void Monitor::check_passing(double time, const contact::Contact& contact) {
          << (contact.by_surfaces(found->first, found->second) ? " (Stiffness Factor, Largest Overlap)"
                                                               : ", a Contact Radius far below the spacing");
   }
-  passed(passing, text.str());
+  passed(interpenetration, text.str());
 }
 
 void Monitor::check_undeclared(double time, const contact::Contact& contact) {

@@ -28,7 +28,7 @@ class Monitor {
   // True if the ledger must be checked, also if nothing is written: the balance error is relative to the largest energy
   // so far, which is not that at the end.
   bool is_energy_due(double time) const { return time >= next_energy_; }
-  void check_passing(double time, const contact::Contact& contact);  // interpenetration of bodies
+  void check_interpenetration(double time, const contact::Contact& contact);  // interpenetration of bodies
   // Deformation that the points do not resolve, after a step with diagnostics: warns once, never ends a run.
   void check_resolution(const Ledger& ledger, bool last);
   void check_failed(double time);  // points without stress in an equilibrium: warns once
@@ -44,7 +44,7 @@ class Monitor {
     step,
     energy,
     penetration,
-    passing,
+    interpenetration,
     point,
     imbalance,
     turning,

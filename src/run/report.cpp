@@ -159,7 +159,7 @@ namespace {
 
 std::string table_of_phases(const Scene& scene, double seconds) {
   std::ostringstream text;
-  text << formatted("\n%-26s %10s %10s %7s\n", "phase", "mean s", "longest s", "share");
+  text << formatted("\n%-26s %10s %10s %7s\n", "phase", "mean s", "longest s", "part");
   double sum = 0;
   for (const PhaseTime& p : phase_times(scene.body.domain.communicator)) {
     text << formatted("%-26s %10.3f %10.3f %6.1f%%\n", p.name.c_str(), p.mean, p.longest, 100 * p.mean / seconds);

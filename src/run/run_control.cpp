@@ -53,7 +53,7 @@ void ExplicitRunControl::save(CentralDifference& solver) {
 bool ExplicitRunControl::observe(CentralDifference& solver) {
   warn_of_fixed_step(solver);
   services_.monitor.check_step(solver);
-  services_.monitor.check_passing(solver.time(), solver.contact());
+  services_.monitor.check_interpenetration(solver.time(), solver.contact());
   services_.monitor.check_undeclared(solver.time(), solver.contact());
   services_.monitor.check_tools(solver.time(), solver.conditions(), services_.scene.tools);
   const bool last = ends_here(solver);

@@ -2,11 +2,11 @@
 
 #include <csignal>
 #include <iostream>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "deck/deck.hpp"
-#include "io/netcdf/trial_read.hpp"
 #include "output/variables.hpp"
 #include "run/balance.hpp"
 #include "run/input.hpp"
@@ -74,6 +74,7 @@ struct Run::Parts {
   std::optional<RunServices> services;
   std::optional<ExplicitRunControl> control;
   int before = 0;  // steps of an earlier run that it resumes
+  HistoryRows* history = nullptr;
   bool begun = false, ended = false;
   bool last = false, ending = false, save = false;  // `ending`, `save`: of equilibria
 
@@ -105,6 +106,9 @@ struct Run::Parts {
   std::optional<Ledger> record();
   template <class Action>
   void guarded(const Action& action);
+  bool steps_follow() { return last && is_over() && equilibria && deck.next_solver; }
+  void hand_over();
+  void report();
   void finish();
   void close();
 };
@@ -115,7 +119,8 @@ void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Star
   say(communicator, describe_scene(*scene, advice(deck, *scene)));
   writers.emplace(
       deck, output_variables_of(deck, scene->body, scene->contact));  // checks all names before a file is replaced
-  writers->history.keep_rows(in_memory.history);
+  history = in_memory.history;
+  writers->history.keep_rows(history);
   make_solver();
   open(start);
 }
@@ -189,7 +194,7 @@ bool Run::Parts::arrive_at_equilibrium() {
   const auto ledger = record();
   monitor->check_energy(ledger ? *ledger : solver.ledger(), last);
   monitor->check_failed(solver.time());
-  monitor->check_passing(solver.time(), solver.contact());
+  monitor->check_interpenetration(solver.time(), solver.contact());
   monitor->check_undeclared(solver.time(), solver.contact());
   monitor->check_tools(solver.time(), solver.conditions(), scene->tools);
   return last;
@@ -235,12 +240,38 @@ void Run::Parts::close() {
   writers.reset();
 }
 
-void Run::Parts::finish() {
-  if (control) control->finish();
-  if (is_over()) checkpoint->close();
+// The explicit steps that follow equilibria (Solver 2): with the body as it is, files that go on, and no checkpoints.
+void Run::Parts::hand_over() {
+  report();
+  deck = set_up_next(deck, equilibria->take_contact(), *scene);
+  std::ostringstream from;
+  from << "\nSolver 2: explicit steps from t = " << deck.solver.initial_time << " s\n" << scene->warnings;
+  say(communicator, from.str());
+  Snapshot kept;
+  Archive saved = Archive::saving_to(kept);
+  writers->serialize(saved, time());
+  close();
+  writers.emplace(deck, output_variables_of(deck, scene->body, scene->contact));
+  writers->history.keep_rows(history);
+  Archive restored = Archive::loading_from(kept);
+  writers->serialize(restored, time());
+  equilibria.reset();
+  balance = Balance(deck);
+  make_solver();
+  open(Start::anew);
+  begun = last = ending = save = false;
+}
+
+void Run::Parts::report() {
   const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
   say(communicator,
       with_solver([&](auto& solver) { return closing_report(*scene, solver, solver.ledger(), seconds, before); }));
+}
+
+void Run::Parts::finish() {
+  if (control) control->finish();
+  if (is_over()) checkpoint->close();
+  report();
   if (!is_over()) say(communicator, early_end.reason(communicator) + checkpoint->hint() + "\n");
   close();
 }
@@ -249,7 +280,6 @@ Run::Run(deck::Deck deck, deck::Problems problems, const Communicator& communica
          const InMemory& in_memory)
     : parts_(std::make_unique<Parts>(std::move(deck), communicator)) {
   reset_phases();
-  io::set_trial_reads(parts_->deck.discretization.trial_reads);
   parts_->set_up(std::move(problems), in_memory, start);
 }
 
@@ -258,15 +288,19 @@ Run::~Run() = default;
 bool Run::advance(const Pause& pause) {
   Parts& run = *parts_;
   if (run.ended) return false;
+  Pause left = pause;
   run.guarded([&] {
-    if (!run.begun) {
-      run.begin();
-      run.last = run.arrive();
-    }
-    for (Pause left = pause; !run.last && left.steps > 0 && run.time() < pause.time; --left.steps) {
-      run.leave(left);
-      run.last = run.arrive();
-    }
+    do {
+      if (run.steps_follow()) run.hand_over();
+      if (!run.begun) {
+        run.begin();
+        run.last = run.arrive();
+      }
+      for (; !run.last && left.steps > 0 && run.time() < pause.time; --left.steps) {
+        run.leave(left);
+        run.last = run.arrive();
+      }
+    } while (run.steps_follow());
   });
   if (run.last) run.finish();
   return !run.last;

@@ -84,6 +84,41 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
   return materials;
 }
 
+namespace {
+
+Vector cell_of(const deck::Grid& grid) {
+  return grid.length.cwiseQuotient(Vector(grid.points[0], grid.points[1], grid.points[2]));
+}
+
+}  // namespace
+
+std::array<int, 3> box_reach(const deck::Grid& grid, const deck::Block& section) {
+  const Vector cell = cell_of(grid);
+  const double horizon = section.horizon.value_or(section.horizon_factor.value_or(0) * std::cbrt(cell.prod()));
+  std::array<int, 3> reach;
+  for (int c = 0; c < 3; ++c) {
+    const double cells = horizon / cell[c];
+    reach[c] = static_cast<int>(std::min(std::floor(cells + 0.5), static_cast<double>(grid.points[c])));
+  }
+  return reach;
+}
+
+namespace {
+
+// Makes the families the boxes that io::make_grid has marked by shared nodes. The search must reach their corners.
+void take_boxes(const deck::Grid& grid, const deck::Block& section, BlockBonds& bonds) {
+  const Vector cell = cell_of(grid);
+  const std::array<int, 3> reach = box_reach(grid, section);
+  const double corner = cell.cwiseProduct(Vector(reach[0], reach[1], reach[2])).norm();
+  bonds.horizon = bonds.horizon_at(std::cbrt(cell.prod()));
+  bonds.in_spacings = false;
+  bonds.touching = true;
+  bonds.families = FamilyKind::lists;
+  bonds.horizon = std::max(bonds.horizon, 1.001 * corner / bonds.search_factor());
+}
+
+}  // namespace
+
 // Sections that are separate bodies are numbered by their index, from 1; all others are body 0.
 std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud) {
   std::vector<BlockBonds> bonds;
@@ -103,6 +138,7 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
     if (any || material.formulation != Formulation::correspondence) {
       bonds.back().families = FamilyKind::lists;
     }
+    if (deck.discretization.grid.boxes) take_boxes(deck.discretization.grid, *section, bonds.back());
   }
   return bonds;
 }
@@ -126,6 +162,7 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
   for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
     const deck::Block* section = section_of(deck, cloud.block_names[b]);
     if (!section || !section->horizon || spacings[b] == 0) continue;  // check_blocks reports blocks without a section
+    if (deck.discretization.grid.boxes || deck.discretization.degenerate == deck::DegeneratePoints::keep) continue;
     if (*section->horizon > spacings[b] && *section->horizon < 20 * spacings[b]) continue;
     std::ostringstream text;
     text << *section->horizon << " m does not fit the points of block " << cloud.block_names[b]

@@ -1,6 +1,7 @@
 // Blocks of the mesh with their sections of the deck: materials, bonds, and checks of both.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
 // One entry for each block of the mesh.
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud);
 std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud);
+
+// With families that are boxes: how many cells each reaches to either side along each axis. Peridigm rounds the horizon
+// to cells, so that half a cell more is one more.
+std::array<int, 3> box_reach(const deck::Grid& grid, const deck::Block& section);
 
 // Collective. A warning if the mass of points at nodes differs from that of the mesh: a node shared by blocks of two
 // densities has the density of the first one. `taken`: PointCloud::taken_volumes.

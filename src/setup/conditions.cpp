@@ -74,6 +74,12 @@ void put(const SymmetryPlane& prototype, std::vector<int> points, int place, con
   for (SymmetryPlane& part : parts) scene.conditions.add(std::move(part));
 }
 
+bool needs_inertia(const deck::Condition& condition) {
+  const auto* tool = std::get_if<RigidTool>(&condition.kind);
+  const auto impossible = []<class Type>(const Type&) { return Type::in_equilibria == InEquilibria::impossible; };
+  return (tool && tool->free) || std::visit(impossible, condition.kind);
+}
+
 // `place`: index of the condition in the deck.
 void add_condition(const deck::Condition& condition, int place, std::vector<int> points, const SharedPoints& shared,
                    double t, Scene& scene) {
@@ -130,12 +136,14 @@ void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& co
   }
   const SharedPoints shared = shared_points(deck, points);
   for (int place = 0; place < static_cast<int>(deck.conditions.size()); ++place) {
+    if (deck.next_solver && needs_inertia(deck.conditions[place])) continue;  // begins with the explicit steps
     try {
       add_condition(deck.conditions[place], place, points[place], shared, deck.solver.initial_time, scene);
     } catch (const Error& error) {
       problems.add(error.what());
     }
   }
+  scene.body.domain.halo.exchange_places(scene.body.domain.sites);  // Initial Displacement moved some
   raise_together(communicator, problems.text(deck.file.string()));
   take_off_what_is_beyond_ends(deck, scene, problems);
   raise_together(communicator, problems.text(deck.file.string()));

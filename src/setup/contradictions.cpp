@@ -37,9 +37,11 @@ Holds holds_of(const deck::Condition& condition, int place) {
   return holds;
 }
 
+// Those of the conditions of type Initial, which set the state at the initial time.
+template <class Initial>
 Holds initial_holds_of(const deck::Condition& condition, int place) {
   Holds holds;
-  if (const auto* initial = std::get_if<InitialVelocity>(&condition.kind)) {
+  if (const auto* initial = std::get_if<Initial>(&condition.kind)) {
     for (const int c : initial->components) holds.push_back({place, Vector::Unit(c), &initial->value, true});
   }
   return holds;
@@ -202,8 +204,12 @@ void check_contradictions(const deck::Deck& deck, const PointsOfConditions& poin
   const double start = deck.solver.initial_time;
   tell(contradicting_points(shared_points(deck, points), body, {start, deck.solver.final_time, looks}), "motion", deck,
        body, problems);
-  tell(contradicting_points(shared(holds_by_condition(deck, initial_holds_of), points), body, {start, start, 1}),
+  tell(contradicting_points(shared(holds_by_condition(deck, initial_holds_of<InitialVelocity>), points), body,
+                            {start, start, 1}),
        "initial velocity", deck, body, problems);
+  tell(contradicting_points(shared(holds_by_condition(deck, initial_holds_of<InitialDisplacement>), points), body,
+                            {start, start, 1}),
+       "initial displacement", deck, body, problems);
 }
 
 Vector push_of_plane(const std::vector<Hold>& holds, int condition) {
@@ -229,6 +235,7 @@ const Type* of_kind(const deck::Condition& condition) {
 std::vector<int> axes_of(const deck::Condition& condition) {
   if (const auto* one = of_kind<PrescribedMotion>(condition)) return one->components;
   if (const auto* one = of_kind<InitialVelocity>(condition)) return one->components;
+  if (const auto* one = of_kind<InitialDisplacement>(condition)) return one->components;
   if (const auto* one = of_kind<BodyForce>(condition)) return one->components;
   return {};
 }
@@ -243,7 +250,7 @@ std::vector<int> common(const std::vector<int>& some, const std::vector<int>& ot
 
 std::string let_the_last_count(const deck::Deck& deck, const Body& body, PointsOfConditions& points) {
   const auto is_numbered = [](const deck::NodeSet& set) { return set.numbers.has_value(); };
-  if (std::none_of(deck.node_sets.begin(), deck.node_sets.end(), is_numbered)) return "";
+  if (!deck.from_peridigm && std::none_of(deck.node_sets.begin(), deck.node_sets.end(), is_numbered)) return "";
   std::string text;
   for (std::size_t last = 0; last < points.size(); ++last) {
     for (std::size_t c = 0; c < last; ++c) {

@@ -25,7 +25,8 @@ std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain,
     const LatticeFamilies* stencil = domain.families.lattice(i);
     if (stencil && stencil->spans_space(i)) continue;  // needs no sum over the family
     const Formulation formulation = formulations[domain.cloud.blocks[i]];
-    if (formulation == Formulation::ordinary && domain.families.size(i) > 0)
+    const bool may_be_alone = deck.discretization.degenerate == deck::DegeneratePoints::keep;
+    if (formulation == Formulation::ordinary && (may_be_alone || domain.families.size(i) > 0))
       continue;  // an ordinary solid may consist of chains and pairs
     const char* reason = degeneracy(domain.families.size(i), family_spread(domain, i));
     if (!reason && formulation == Formulation::quadratic && !spans_cell(domain, i)) reason = "they hardly span space";
@@ -52,8 +53,7 @@ PointCloud without(const PointCloud& cloud, const std::vector<int>& dropped) {
 
 void refuse_degenerate(std::int64_t count, std::string text, const Communicator& communicator) {
   if (!text.empty()) {
-    text = "Discretization > Degenerate Points: " + std::to_string(count) +
-           " points have too few neighbors for a shape tensor; " + text +
+    text = "Discretization > Degenerate Points: " + std::to_string(count) + " points have too few neighbors; " + text +
            ". Enlarge the horizon, mend the mesh, or say \"Drop\" to leave such points out";
   }
   raise_together(communicator, text);
@@ -63,17 +63,19 @@ void refuse_degenerate(std::int64_t count, std::string text, const Communicator&
 
 // Builds the families of the partitioned cloud and drops degenerate points. Dropping one may make others degenerate.
 Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const std::vector<Mirror>& mirrors,
-                                        const Communicator& communicator, Dropped& dropped) {
+                                        const std::vector<Period>& periods, const Communicator& communicator,
+                                        Dropped& dropped) {
   const Timed timed(phase("Families"));
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   const deck::DegeneratePoints rule = deck.discretization.degenerate;
   PiecesOfPoints before;
   for (;;) {
-    Domain domain = make_domain(std::move(cloud), bonds, communicator, deck.discretization.cracks, mirrors);
+    Domain domain = make_domain(std::move(cloud), bonds, communicator, deck.discretization.cracks, mirrors, periods);
     std::string text;
     const std::vector<int> degenerate = degenerate_points(deck, domain, text);
     const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));
-    if (count > 0 && rule == deck::DegeneratePoints::error) refuse_degenerate(count, text, communicator);
+    const bool refuses = rule == deck::DegeneratePoints::error || rule == deck::DegeneratePoints::keep;
+    if (count > 0 && refuses) refuse_degenerate(count, text, communicator);
     if (count == 0) {
       if (dropped.points > 0) take_pieces(domain, before, dropped);
       if (rule == deck::DegeneratePoints::drop) check_dropped(domain, dropped);

@@ -8,9 +8,10 @@
 namespace strut {
 
 // Collective. Families of the partitioned cloud, without the points that the deck allows to be dropped; `dropped`
-// describes these. `mirrors`: planes of bodies with mirror images. Throws Error on all ranks if the deck does not allow
-// it.
+// describes these. `mirrors`: planes of bodies with mirror images; `periods`: periodic sides. Throws Error on all ranks
+// if the deck does not allow it.
 Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const std::vector<Mirror>& mirrors,
-                                        const Communicator& communicator, Dropped& dropped);
+                                        const std::vector<Period>& periods, const Communicator& communicator,
+                                        Dropped& dropped);
 
 }  // namespace strut

@@ -15,6 +15,7 @@
 #include "setup/blocks.hpp"
 #include "setup/finite_value.hpp"
 #include "setup/mirrors.hpp"
+#include "setup/periods.hpp"
 #include "topology/coincident.hpp"
 
 namespace strut {
@@ -52,25 +53,27 @@ std::size_t mark_numbers(const std::vector<int>& numbers, std::uint64_t bit, Poi
   return found;
 }
 
+// Collective. Marks the point that is nearest to a place; of several the one that the mesh has first.
+void mark_nearest(const Vector& place, std::uint64_t bit, PointCloud& cloud, const Communicator& communicator) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const auto distance = [&](std::size_t i) { return (cloud.positions[i] - place).squaredNorm(); };
+  double nearest = none, first = none;
+  for (std::size_t i = 0; i < cloud.size(); ++i) nearest = std::min(nearest, distance(i));
+  nearest = communicator.min(nearest) * (1 + 1e-9);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (distance(i) <= nearest) first = std::min(first, static_cast<double>(cloud.ids[i]));
+  }
+  first = communicator.min(first);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (static_cast<double>(cloud.ids[i]) == first) cloud.sets[i] |= bit;
+  }
+}
+
 void mark(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Vector& X = cloud.positions[i];
     const double value = finite_value(set.where, X, 0);
     if (value != 0) cloud.sets[i] |= bit;
-  }
-}
-
-// Collective. Of points at the same distance the first in the file.
-void mark_nearest(const Vector& place, std::uint64_t bit, PointCloud& cloud, const Communicator& communicator) {
-  double least = std::numeric_limits<double>::infinity(), first = least;
-  for (const Vector& X : cloud.positions) least = std::min(least, (X - place).squaredNorm());
-  least = communicator.min(least);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if ((cloud.positions[i] - place).squaredNorm() == least) first = std::min(first, static_cast<double>(cloud.ids[i]));
-  }
-  first = communicator.min(first);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (static_cast<double>(cloud.ids[i]) == first) cloud.sets[i] |= bit;
   }
 }
 
@@ -143,11 +146,16 @@ PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, c
   const Timed timed(phase("Mesh in"));
   const deck::Discretization& discretization = deck.discretization;
   const deck::Grid& grid = discretization.grid;
-  const std::vector<Mirror> planes = symmetry_planes(deck);
+  std::vector<Mirror> planes = symmetry_planes(deck);
+  const std::vector<Mirror> sides = sides_of_periods(deck);
+  planes.insert(planes.end(), sides.begin(), sides.end());
   const bool with_cells =
       needs_cells(deck) || (!planes.empty() && deck.discretization.points == deck::Points::elements);
   if (discretization.type == deck::MeshType::grid) {
-    return io::make_grid(grid.origin, grid.length, grid.points, communicator, with_cells, planes);
+    std::optional<std::array<int, 3>> box;
+    const deck::Block* block = section_of(deck, "block_1");
+    if (grid.boxes && block) box = box_reach(grid, *block);
+    return io::make_grid(grid.origin, grid.length, grid.points, communicator, with_cells, planes, box);
   }
   if (discretization.type == deck::MeshType::text) return io::read_text(discretization.mesh, communicator);
   const PointsAt at = discretization.points == deck::Points::nodes ? PointsAt::nodes : PointsAt::elements;
@@ -199,6 +207,10 @@ void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, co
     if (cloud.set_names.size() >= 64) return problems.add(path_of(set), "mesh and deck have more than 64 node sets");
     const std::uint64_t bit = std::uint64_t{1} << cloud.set_names.size();
     cloud.set_names.push_back(set.name);
+    if (set.nearest) {
+      mark_nearest(*set.nearest, bit, cloud, communicator);
+      continue;
+    }
     if (set.numbers) {
       add_numbered_set(set, bit, cloud, communicator, problems);
       continue;

@@ -1,6 +1,7 @@
 #include "setup/setup.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
@@ -14,6 +15,7 @@
 #include "setup/mesh.hpp"
 #include "setup/mirrors.hpp"
 #include "setup/partition_weights.hpp"
+#include "setup/periods.hpp"
 #include "topology/partition.hpp"
 #include "topology/pieces.hpp"
 
@@ -27,26 +29,33 @@ std::optional<QuasiStaticControl> quasi_static_of(const deck::Solver& solver) {
   return QuasiStaticControl{with_tangent, load_steps, {tolerance, most_iterations}};
 }
 
+StepControl control_of(const deck::Deck& deck) {
+  const deck::Solver& solver = deck.solver;
+  return {solver.fixed_dt.value_or(0), solver.safety_factor, solver.subcycling, !deck.watch.stops_inverted};
+}
+
 // Builds the scene from the partitioned cloud.
 Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weights, const Communicator& communicator) {
   Dropped dropped;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
   const Mirrors found = mirrors(deck, cloud, communicator);
-  Domain domain = domain_without_degenerate_points(deck, std::move(cloud), found.planes, communicator, dropped);
-  Scene scene{
-      make_body(std::move(domain), deck.discretization.influence, materials),
-      {},
-      {},
-      {},
-      {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor, deck.solver.subcycling, !deck.watch.stops_inverted},
-      quasi_static_of(deck.solver),
-      std::move(weights),
-      0,
-      0,
-      0,
-      dropped,
-      {},
-      found.warnings};
+  const std::vector<Period> all_periods = periods(deck, cloud, found.planes, communicator);
+  Domain domain =
+      domain_without_degenerate_points(deck, std::move(cloud), found.planes, all_periods, communicator, dropped);
+  Scene scene{make_body(std::move(domain), deck.discretization.influence, materials),
+              {},
+              {},
+              {},
+              control_of(deck),
+              quasi_static_of(deck.solver),
+              std::move(weights),
+              0,
+              0,
+              0,
+              dropped,
+              {},
+              found.warnings};
+  scene.warnings += open_sides(deck, scene.body.domain);
   scene.fracture = fracture_of(scene.body);
   add_conditions(deck, scene, communicator);
   return scene;
@@ -73,6 +82,24 @@ Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicat
   scale_masses(scene.highest_frequency, scene.body);
   add_contact(deck, scene);
   return scene;
+}
+
+deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& scene) {
+  deck::Deck next = deck;
+  next.solver = *deck.next_solver;
+  next.next_solver.reset();
+  next.solver.rebalance = std::numeric_limits<double>::infinity();  // another partition begins with a body at rest
+  if (!next.solver.keeps_velocities) std::ranges::fill(scene.body.velocity, Vector::Zero());
+  scene.body.previous_velocity = scene.body.velocity;
+  scene.conditions = {};
+  scene.tools.clear();
+  scene.warnings.clear();
+  scene.quasi_static.reset();
+  scene.control = control_of(next);
+  add_conditions(next, scene, scene.body.domain.communicator);
+  scene.contact = std::move(contact);
+  scene.fracture = fracture_of(scene.body);
+  return next;
 }
 
 PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems,

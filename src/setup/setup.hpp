@@ -37,4 +37,9 @@ MigrationState migration_state_of(const Scene& scene, PointCloud cloud);
 // Collective. The same scene on another partition, at its initial time, without its messages.
 Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicator& communicator);
 
+// Collective. Makes a scene whose equilibria are over ready for the explicit steps of the deck's second solver: the
+// body, as it is, with conditions and bonds to break from now on. `contact`: of the equilibria, whose touching
+// distances stay. Returns the deck of these steps; scene.warnings are theirs.
+deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& scene);
+
 }  // namespace strut

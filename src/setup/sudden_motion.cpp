@@ -155,7 +155,10 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
     for (const int i : points[c]) {
       const Vector X = body.domain.reference(i);
       const double u = motion->value.evaluate(X[0], X[1], X[2], t);
-      if (std::abs(u) > no_jump * body.domain.cloud.spacings[i]) moved[c].push_back(i);
+      const auto is_far = [&](int c) {  // from where it is: after equilibria, no more where it was
+        return std::abs(u - (body.domain.current(i) - X)[c]) > no_jump * body.domain.cloud.spacings[i];
+      };
+      if (std::ranges::any_of(motion->components, is_far)) moved[c].push_back(i);
     }
   }
   const std::vector<FoundPoints> found = found_points(body, moved);

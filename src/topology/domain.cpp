@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/errors.hpp"
 #include "topology/neighbors/order.hpp"
 #include "topology/partition.hpp"
 
@@ -97,7 +98,7 @@ void add_lattices(const std::vector<LatticeFrame>& frames, const CandidatePool& 
 }  // namespace
 
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
-                   const std::vector<Crack>& cracks, std::vector<Mirror> mirrors) {
+                   const std::vector<Crack>& cracks, std::vector<Mirror> mirrors, std::vector<Period> periods) {
   const std::vector<double> own_horizons = horizons_of(cloud, bonds);
   std::vector<BlockHorizons> blocks = block_horizons(cloud, own_horizons, bonds, communicator);
   double reach = std::numeric_limits<double>::min();  // for a rank without points
@@ -107,7 +108,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   }
   const int owned = static_cast<int>(cloud.size());
   std::stable_sort(mirrors.begin(), mirrors.end(), [](const Mirror& a, const Mirror& b) { return a.body < b.body; });
-  const Mirrored all = mirrored(std::move(mirrors), cloud, bonds, reach, communicator);
+  const Mirrored all = mirrored(std::move(mirrors), periods, cloud, bonds, reach, communicator);
   const std::vector<Offered> offers = offered(cloud, bonds, all, reach);
   const CandidatePool pool = candidates_of(cloud, own_horizons, bonds, offers, reach, communicator);
   const std::vector<LatticeFrame> found =
@@ -140,7 +141,21 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
           std::move(halo),
           std::move(members.ghost_ids),
           separated_by_cracks(search, pool, order.points),
-          all.mirrors};
+          all.mirrors,
+          std::move(periods)};
+}
+
+Vector stretch_at(const std::vector<Period>& periods, double t) {
+  Vector stretch = Vector::Ones();
+  for (const Period& period : periods) {
+    double& now = stretch[period.axis];
+    now = period.stretch.evaluate(0, 0, 0, t);
+    if (!(now > 0 && std::isfinite(now))) {
+      throw Error(period.stretch.path() + ": '" + period.stretch.text() + "' is " + std::to_string(now) +
+                  " at t = " + std::to_string(t) + " s; expected a stretch > 0");
+    }
+  }
+  return stretch;
 }
 
 PointCloud whole_cloud(const Domain& domain) {

@@ -41,6 +41,8 @@ struct Domain {
   std::vector<std::pair<int, std::int64_t>> separated;
   // Symmetry planes. The mirror images of points are ghosts, with ids by Images::id.
   std::vector<Mirror> mirrors = {};
+  // Periodic sides: images are ghosts, too. A domain has either these or mirrors.
+  std::vector<Period> periods = {};
 
   Vector reference(int i) const { return sites[i].reference.head<3>().matrix(); }  // X, m
   Vector current(int i) const { return sites[i].current.head<3>().matrix(); }      // y, m
@@ -52,7 +54,11 @@ struct Domain {
 // Collective. `cloud`: after the partition. `bonds`: one for each block of the cloud; with cracks, all may lose bonds.
 // Throws Error if mirrors do not meet at 180°/n.
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
-                   const std::vector<Crack>& cracks = {}, std::vector<Mirror> mirrors = {});
+                   const std::vector<Crack>& cracks = {}, std::vector<Mirror> mirrors = {},
+                   std::vector<Period> periods = {});
+
+// The stretch of the periods along x, y, z at the time t (s).
+Vector stretch_at(const std::vector<Period>& periods, double t);
 
 // The owned points as they were read.
 PointCloud whole_cloud(const Domain& domain);

@@ -53,6 +53,7 @@ struct Halo::Plan {
   std::vector<int> sent, receivers, received;     // local indices; ranks that `sent` go to; in the order of ranks
   Buffer outgoing, incoming;
   std::vector<ImagePoint> images;
+  std::shared_ptr<Vector> stretch = std::make_shared<Vector>(Vector::Ones());
 };
 
 // Each rank asks the owners of its ghosts, which thereby learn what to send to whom.
@@ -94,6 +95,7 @@ Halo::Halo(std::unique_ptr<Plan> plan) : plan_(std::move(plan)) {}
 // For each pair of ranks, the order of sending equals that of receiving, and so it does for a part of the points.
 Halo Halo::restricted_to(const Communicator& communicator, const std::vector<std::uint8_t>& wanted) const {
   auto part = std::make_unique<Plan>();
+  part->stretch = plan_->stretch;
   std::ranges::copy_if(plan_->images, std::back_inserter(part->images),
                        [&](const ImagePoint& image) { return wanted[image.ghost] != 0; });
   if (plan_->distributor.is_null()) return Halo(std::move(part));
@@ -111,6 +113,10 @@ Halo Halo::restricted_to(const Communicator& communicator, const std::vector<std
 }
 
 const std::vector<ImagePoint>& Halo::images() const { return plan_->images; }
+
+void Halo::set_stretch(const Vector& stretch) const { *plan_->stretch = stretch; }
+
+const Vector& Halo::stretch() const { return *plan_->stretch; }
 
 Halo::~Halo() = default;
 Halo::Halo(Halo&&) noexcept = default;
@@ -150,7 +156,7 @@ void Halo::finish(void* first, std::size_t stride, std::size_t width, Reflect re
   }
   for (const ImagePoint& image : plan_->images) {
     if (image.original >= 0) std::memcpy(value_of(image.ghost), value_of(image.original), width);
-    reflect(image.by, value_of(image.ghost));
+    reflect(image.by.stretched(*plan_->stretch), value_of(image.ghost));
   }
 }
 

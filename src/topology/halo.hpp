@@ -20,7 +20,7 @@ inline void reflect_direction(const Reflection& by, Vector& direction) { directi
 // For values that are equal on an image and its original.
 inline constexpr auto unchanged = [](const Reflection&, auto&) {};
 
-// A ghost that is a mirror image; `original`: local index if this rank owns the original, else −1.
+// A ghost that is an image; `original`: local index if this rank owns the original, else −1.
 struct ImagePoint {
   int ghost, original;
   Reflection by;
@@ -79,6 +79,10 @@ class Halo {
   }
 
   const std::vector<ImagePoint>& images() const;
+
+  // The present stretch of the periods along x, y, z, which places of images follow; shared with restricted_to().
+  void set_stretch(const Vector& stretch) const;
+  const Vector& stretch() const;
 
   std::int64_t bytes_sent() const { return bytes_sent_; }  // since the start, by this rank
 

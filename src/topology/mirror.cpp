@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "topology/cloud.hpp"
 
 namespace strut {
 
@@ -38,7 +39,37 @@ std::vector<Reflection> images_of(const std::vector<Mirror>& mirrors, const Eige
   return all;
 }
 
+// A number below 2⁴⁰ (Images::bits) for a position: shared nodes at one position have one, others almost certainly
+// another.
+std::int64_t number_at(const Vector& X, double period) {
+  constexpr double resolution = 1e-7;  // of the period; with an offset that no mesh has
+  std::uint64_t hash = 0;
+  for (int c = 0; c < 3; ++c) {
+    hash += static_cast<std::uint64_t>(std::llround(X[c] / (resolution * period) + 0.2718281828));
+    hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;  // splitmix64
+    hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
+    hash ^= hash >> 31;
+  }
+  constexpr int last = Images::bits - 1;  // set here, and in no number of a mesh
+  return static_cast<std::int64_t>((hash & ((std::uint64_t{1} << last) - 1)) | std::uint64_t{1} << last);
+}
+
 }  // namespace
+
+std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vector<Mirror>& planes, double size) {
+  const bool repeats = std::ranges::any_of(planes, [](const Mirror& plane) { return plane.period > 0; });
+  std::int64_t bits = 0;
+  Vector lower = X;  // its image on lower sides
+  double period = 0;
+  for (const Mirror& plane : planes) {
+    if (!plane.holds(X, size)) continue;
+    period = std::max(period, plane.period);
+    const bool is_upper = plane.period > 0 && plane.normal.sum() < 0;
+    if (is_upper) lower += plane.period * plane.normal;
+    if (!repeats || is_upper) bits |= std::int64_t{1} << (first_plane_bit + plane.bit);
+  }
+  return (period > 0 ? number_at(lower, period) : number) | bits;
+}
 
 Images::Images(const std::vector<Mirror>& mirrors, const std::vector<Eigen::AlignedBox3d>& boxes, double reach) {
   for (std::size_t b = 0; b < mirrors.size(); ++b) {
@@ -56,9 +87,21 @@ Images::Images(const std::vector<Mirror>& mirrors, const std::vector<Eigen::Alig
   }
 }
 
+Images::Images(const std::vector<Period>& periods, double reach) {
+  for (const Period& period : periods) {
+    const int count = static_cast<int>(all_.size()), most = static_cast<int>(std::floor(reach / period.length)) + 1;
+    for (int n = -most; n <= most; ++n) {
+      const Vector by = n * period.length * Vector::Unit(period.axis);
+      for (int k = 0; n != 0 && k < count; ++k) {
+        all_.push_back({Tensor::Identity(), all_[k].shift + by, all_[k].period + by});
+      }
+    }
+  }
+  for (int n = 1; n < count(); ++n) of_all_.push_back(n);
+}
+
 const std::vector<int>& Images::of_body(int body) const {
-  static const std::vector<int> none;
-  return static_cast<std::size_t>(body) < of_body_.size() ? of_body_[body] : none;
+  return static_cast<std::size_t>(body) < of_body_.size() ? of_body_[body] : of_all_;
 }
 
 }  // namespace strut

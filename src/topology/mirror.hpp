@@ -1,11 +1,12 @@
-// Symmetry planes: bodies of which only a part is computed. The rest consists of mirror images of the points: ghosts
-// whose values are the reflected values of their originals.
+// Symmetry planes and periodic sides: bodies of which only a part is computed. The rest consists of images of the
+// points: ghosts whose values are the reflected or shifted values of their originals.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "base/math/function.hpp"
 #include "base/math/tensors.hpp"
 
 namespace strut {
@@ -16,16 +17,30 @@ struct Mirror {
   int body = 0;                                          // BlockBonds::body
   int number = 0;                                        // index in the deck of its condition
   int bit = 0;                                           // bit of `shared_nodes` for nodes on it (cloud.hpp)
+  double period = 0;                                     // m, of a periodic side: to the other one; 0: a mirror
 
   double distance(const Vector& X) const { return normal.dot(X - on); }  // m, negative behind the normal
   // True if a point is on it, to round-off; `size`: its horizon or spacing, m.
   bool holds(const Vector& X, double size) const { return std::abs(distance(X)) < 1e-6 * size; }
 };
 
-// Maps a point to its image: a product of reflections, X → turn X + shift.
+// Two sides, normal to an axis, behind which all bodies go on as they are behind the other side.
+struct Period {
+  int axis = 0;
+  double length = 0;    // m, from one side to the other, in the reference state
+  int number = 0;       // index in the deck of its condition
+  Function stretch{1};  // of the time: present over reference distance of the sides
+};
+
+// The number of a shared node (cloud.hpp) at X, with the bits of the mirrors that it lies on. On periodic sides, shared
+// nodes that are images of each other have one number; those on an upper side have its bit. `size`: a spacing, m.
+std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vector<Mirror>& planes, double size);
+
+// Maps a point to its image: a product of reflections or a sum of periods, X → turn X + shift.
 struct Reflection {
   Tensor turn = Tensor::Identity();
-  Vector shift = Vector::Zero();  // m
+  Vector shift = Vector::Zero();   // m, in the reference state
+  Vector period = Vector::Zero();  // m, the part of the shift that stretches with the periods
 
   static Reflection by(const Mirror& mirror) {
     const Vector& n = mirror.normal;
@@ -33,15 +48,22 @@ struct Reflection {
   }
   Vector operator()(const Vector& X) const { return turn * X + shift; }
   Reflection after(const Reflection& first) const { return {turn * first.turn, turn * first.shift + shift}; }
+  // Of present positions; `stretch`: of the periods along x, y, z.
+  Reflection stretched(const Vector& stretch) const {
+    return {turn, shift + period.cwiseProduct(stretch - Vector::Ones()), period};
+  }
 };
 
-// The mirror images of bodies. Image 0 is the body itself.
+// The images of bodies. Image 0 is the body itself.
 class Images {
  public:
   Images() = default;
   // Makes those within `reach` (m) of their body, whose box is boxes[b] for the body of mirrors[b]. Throws Error if the
   // mirrors of a body make too many images, because they do not meet at 180°/n.
   Images(const std::vector<Mirror>& mirrors, const std::vector<Eigen::AlignedBox3d>& boxes, double reach);
+
+  // Those of all bodies by these periods, as far as they may be within `reach` (m).
+  Images(const std::vector<Period>& periods, double reach);
 
   // Numbers of the images of a body, ascending, without the body itself.
   const std::vector<int>& of_body(int body) const;
@@ -59,6 +81,7 @@ class Images {
  private:
   std::vector<Reflection> all_{{}};
   std::vector<std::vector<int>> of_body_;
+  std::vector<int> of_all_;  // of each body, by periods
 };
 
 }  // namespace strut

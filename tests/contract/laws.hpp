@@ -22,6 +22,8 @@ template <>
 inline constexpr bool from_stretch<materials::PolymerFoam> = true;
 template <>
 inline constexpr bool from_stretch<materials::ShockJ2> = true;
+template <>
+inline constexpr bool from_stretch<materials::Hyperelastic> = true;
 
 // Hooke's law of the logarithmic strain, and flow, if any, that keeps the volume: the closed forms of that, and the
 // balance of work at J = 1, are checked. A law that is not has its own closed forms in a file of its own.
@@ -33,6 +35,8 @@ template <>
 inline constexpr bool like_a_metal<materials::PolymerFoam> = false;
 template <>
 inline constexpr bool like_a_metal<materials::ShockJ2> = false;
+template <>
+inline constexpr bool like_a_metal<materials::Hyperelastic> = false;
 
 // How far stress and energy below yield may be from Hooke's law at a strain of 1e-4, as a part of themselves. 0: not
 // but by round-off. A law that curves from the start departs by some strains.
@@ -40,6 +44,14 @@ template <class L>
 inline constexpr double departs_from_hooke = 0;
 template <>
 inline constexpr double departs_from_hooke<materials::ShockJ2> = 5e-4;  // (n + 1)/2 strains of 2e-4, n 4
+template <>
+inline constexpr double departs_from_hooke<materials::Hyperelastic> = 5e-4;  // J of W = ½ K (J − 1)², twice the strain
+
+// What a step of 1e-8 s below yield may dissipate, as a part of its energy: nothing, but where the law relaxes.
+template <class L>
+inline constexpr double relaxes_by = 0;
+template <>
+inline constexpr double relaxes_by<materials::Hyperelastic> = 1e-5;  // 1e-8 s of a time of 1e-3 s
 
 // ---- The table ------------------------------------------------------------------------------------------------------
 
@@ -148,6 +160,11 @@ inline std::vector<NamedLaw> table_of_laws() {
                        hardens ? Polyurethane::hardening(poisson) : Polyurethane::perfect(poisson)});
     }
   }
+  table.push_back(
+      {"hyperelastic_ogden", materials::Hyperelastic{.bulk = bulk, .terms = {{{0.7 * shear, 2}, {-0.3 * shear, -2}}}}});
+  table.push_back(
+      {"hyperelastic_relaxing",
+       materials::Hyperelastic{.bulk = bulk, .terms = {{{2 * shear / 1.3, 1.3}}}, .times = {{{0.3, 1e-3}}}}});
   return table;
 }
 

@@ -174,6 +174,16 @@ PolymerFoam::State turned(const Tensor& Q, const PolymerFoam::State& state) {
   std::copy(strain.begin(), strain.end(), result.plastic_strain.begin());
   return result;
 }
+Hyperelastic::State turned(const Tensor& Q, const Hyperelastic::State& state) {
+  Hyperelastic::State result = state;
+  const auto turn = [&Q](double* first) {
+    const Symmetric there = rotated(Q, Symmetric(first));
+    std::copy(there.begin(), there.end(), first);
+  };
+  turn(result.last.data());
+  for (int k = 0; k < Hyperelastic::most_times; ++k) turn(result.branches.data() + 6 * k);
+  return result;
+}
 
 // Rotating the rates rotates the stress and leaves the numbers of the state. Rotation and sums carry 1e-15 of the
 // largest trial stress of the step, which can be a hundred times the stress itself; the solution of the law 1e-12 of
@@ -274,7 +284,7 @@ TEST_P(LawTest, IsElasticBelowYield) {
       EXPECT_LE((point.stress - hooke).norm(), departs_from_hooke<L> * hooke.norm() + 1e-14 * bulk * 1e-4 * 10);
       EXPECT_NEAR(law.elastic_energy(point.stress, point.state), 0.5 * double_dot(hooke, strain),
                   in_energy * double_dot(hooke.cwiseAbs(), strain.cwiseAbs()));
-      EXPECT_EQ(law.dissipation(point.state), 0);
+      EXPECT_LE(law.dissipation(point.state), relaxes_by<L> * 0.5 * double_dot(hooke, strain));
     }
   });
 }

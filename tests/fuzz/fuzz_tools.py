@@ -21,7 +21,7 @@ import tempfile
 import time
 import traceback
 
-MODULES = ("numpy", "scipy", "tifffile", "vtkmodules", "meshio", "h5py")
+MODULES = ("numpy", "scipy", "tifffile", "vtkmodules", "meshio", "h5py", "netCDF4")
 if any(importlib.util.find_spec(module) is None for module in MODULES):
     print("skipped: Debian packages are missing (tools/prepare installs them)")
     sys.exit(77)

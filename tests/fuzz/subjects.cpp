@@ -31,6 +31,13 @@ std::string change_text(const std::string& sample, const std::string& other, Ran
 
 // ---- Exodus
 
+// HDF5 compares sizes; other damage within may crash it.
+std::string damaged_or_cut(const std::string& sample, const std::string& other, Random& random) {
+  const std::string_view hdf5 = "\x89HDF";
+  if (std::string bytes = damaged(sample, other, random); !bytes.starts_with(hdf5)) return bytes;
+  return sample.starts_with(hdf5) ? sample.substr(0, random.below(sample.size())) : sample;
+}
+
 // The same file in another format of netCDF.
 std::string converted(const fs::path& file, int mode) {
   const fs::path copy = fs::path(file).replace_extension(".copy");
@@ -85,10 +92,10 @@ std::vector<Subject> exodus(const fs::path& folder, const Communicator& world) {
   const std::vector<std::string> solids(all.begin(), all.begin() + 4);  // hexahedra and tetrahedra, in both formats
   const auto elements = [&world](const fs::path& file) { io::read_exodus(file, world); };
   const auto nodes = [&world](const fs::path& file) { io::read_exodus(file, world, PointsAt::nodes); };
-  return {{"exodus", "mesh.g", all, damaged, elements},
-          {"nodes", "solid.g", solids, damaged, nodes},
-          {"mesh", "raw.g", all, damaged, [](const fs::path& file) { io::read_mesh(file); }},
-          {"result", "result.e", all, damaged, [](const fs::path& file) { io::read_result(file); }}};
+  return {{"exodus", "mesh.g", all, damaged_or_cut, elements},
+          {"nodes", "solid.g", solids, damaged_or_cut, nodes},
+          {"mesh", "raw.g", all, damaged_or_cut, [](const fs::path& file) { io::read_mesh(file); }},
+          {"result", "result.e", all, damaged_or_cut, [](const fs::path& file) { io::read_result(file); }}};
 }
 
 // ---- text
@@ -142,21 +149,12 @@ std::string raw(const auto& numbers) {
   return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(numbers[0]));
 }
 
-std::string arrays_sample() {
-  return "strut-mesh arrays 1\nnodes 4\n" + raw(std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) +
-         "block tips TET4 1 4\n" + raw(std::vector<std::int32_t>{0, 1, 2, 3}) + "block points SPHERE 1 1\n" +
-         raw(std::vector<std::int32_t>{2}) + raw(std::vector<double>{0.5}) + "set foot 2\n" +
-         raw(std::vector<std::int32_t>{0, 1}) + "end\n";
-}
-
-std::string cells_sample() {
-  return "strut-mesh arrays 1\nnodes 8\n" +
-         raw(std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1}) +
-         "block cube HEX8 1 8\n" + raw(std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}) + "cells cube 1\n" +
-         raw(std::vector<double>{0.5, 0.5, 0.5, 0.5, 0.1, 0.1, 0.1, 0, 0, 0, 1, 0, 0}) +
-         "voxels foam 4 3 2 4 2 0.3 grey\n" + raw(std::vector<double>{0.1, 0.2, 0.1, 0, 0, 0}) +
+std::string voxels_sample() {
+  return "strut-mesh arrays 1\nnodes 0\nvoxels foam 4 3 2 4 2 0.3 grey\n" +
+         raw(std::vector<double>{0.1, 0.2, 0.1, 0, 0, 0}) +
          raw(std::vector<std::int32_t>{0, 0, 0, 1, 0, 0, 2, 1, 2, 2, 1, 3}) + raw(std::vector<double>{1, 0.5, 1, 0.7}) +
-         "end\n";
+         "voxels plate 2 2 1 1 2 0.3 solid 3\n" + raw(std::vector<double>{0.1, 0.2, 0.1, 0, 0, 0}) +
+         raw(std::vector<std::int32_t>{0, 0, 0, 1, 0, 0}) + "end\n";
 }
 
 // A grey image with noise, as a scan has: pieces that are dropped beside others that are kept.
@@ -196,11 +194,10 @@ Subject arrays() {
     mesh::read_arrays(stream, "arrays");
   };
   const auto change = [](const std::string& sample, const std::string& other, Random& random) {
-    const bool noisy =
-        sample.find(" grey\n") != std::string::npos && sample.starts_with("strut-mesh arrays 1\nnodes 0");
+    const bool noisy = sample.find("plate") == std::string::npos;
     return noisy && random.chance(0.7) ? change_fills(sample, random) : change_text(sample, other, random);
   };
-  const std::vector<std::string> samples = {arrays_sample(), cells_sample(), noisy_sample(1), noisy_sample(2)};
+  const std::vector<std::string> samples = {voxels_sample(), noisy_sample(1), noisy_sample(2)};
   return {"arrays", "mesh.arrays", samples, change, read};
 }
 

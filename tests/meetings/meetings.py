@@ -35,13 +35,14 @@ except ImportError as missing:
     print(f"left out: {missing} (Debian: python3-netcdf4, python3-numpy)")
     sys.exit(77)
 
-from known import known
-from laws import LAWS, NotHere
-from relations import RELATIONS, Case
-from runs import Runner
-from scenes import drawn, written, without_a_range
-from schema import schema_of
-from shrink import shrunk
+sys.path.append(str(Path(__file__).resolve().parents[2] / "tools" / "shared"))
+from known import known  # noqa: E402
+from laws import LAWS, NotHere  # noqa: E402
+from relations import RELATIONS, Case  # noqa: E402
+from runs import Runner  # noqa: E402
+from scenes import drawn, written, without_a_range  # noqa: E402
+from schema import schema_of  # noqa: E402
+from shrink import shrunk  # noqa: E402
 
 RELATIONS_A_SCENE = 5  # in the short run
 VERBOSE = bool(os.environ.get("MEETINGS_VERBOSE"))

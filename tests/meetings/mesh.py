@@ -1,7 +1,7 @@
 """The points of a scene: boxes of cells, as a list of points, as hexahedra in an Exodus file, or as Peridigm's grid."""
 from dataclasses import dataclass, field, replace
 
-import netCDF4
+import exodus
 import numpy as np
 
 CORNERS = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)])
@@ -178,46 +178,7 @@ def hexahedra_of(corners):
     return volumes, moments / volumes[:, None]
 
 
-def names(file, variable, dimension, texts):
-    array = np.zeros((len(texts), 33), "S1")
-    for i, text in enumerate(texts):
-        array[i, :len(text)] = [c.encode() for c in text]
-    file.createVariable(variable, "S1", (dimension, "len_name"))[:] = array
-
-
 def write_exodus(path, mesh):
     numbers = list(dict.fromkeys(mesh.blocks.tolist()))  # in the order in which they come
-    with netCDF4.Dataset(path, "w", format="NETCDF3_64BIT_OFFSET") as file:
-        file.api_version = file.version = np.float32(8.03)
-        file.floating_point_word_size, file.file_size, file.title = np.int32(8), np.int32(1), "scene"
-        sizes = dict(len_string=33, len_line=81, len_name=33, four=4, time_step=None, num_dim=3, num_nodes=len(mesh.nodes),
-                     num_elem=len(mesh.blocks), num_el_blk=len(numbers))
-        for name, size in sizes.items():
-            file.createDimension(name, size)
-        file.createVariable("time_whole", "f8", ("time_step",))
-        for axis in range(3):
-            file.createVariable("coord" + "xyz"[axis], "f8", ("num_nodes",))[:] = mesh.nodes[:, axis]
-        names(file, "coor_names", "num_dim", "xyz")
-        file.createVariable("eb_status", "i4", ("num_el_blk",))[:] = 1
-        ids = file.createVariable("eb_prop1", "i4", ("num_el_blk",))
-        ids[:] = numbers
-        ids.setncattr("name", "ID")
-        names(file, "eb_names", "num_el_blk", [f"block_{n}" for n in numbers])
-        for i, number in enumerate(numbers, 1):
-            own = mesh.hexahedra[mesh.blocks == number]
-            file.createDimension(f"num_el_in_blk{i}", len(own))
-            file.createDimension(f"num_nod_per_el{i}", 8)
-            connect = file.createVariable(f"connect{i}", "i4", (f"num_el_in_blk{i}", f"num_nod_per_el{i}"))
-            connect.elem_type = "HEX8"
-            connect[:] = own + 1
-        sets = {name: nodes for name, nodes in mesh.sets.items() if len(nodes)}
-        if sets:
-            file.createDimension("num_node_sets", len(sets))
-            file.createVariable("ns_status", "i4", ("num_node_sets",))[:] = 1
-            ids = file.createVariable("ns_prop1", "i4", ("num_node_sets",))
-            ids[:] = np.arange(1, len(sets) + 1)
-            ids.setncattr("name", "ID")
-            names(file, "ns_names", "num_node_sets", list(sets))
-            for i, nodes in enumerate(sets.values(), 1):
-                file.createDimension(f"num_nod_ns{i}", len(nodes))
-                file.createVariable(f"node_ns{i}", "i4", (f"num_nod_ns{i}",))[:] = nodes + 1
+    blocks = [(f"block_{n}", "HEX8", mesh.hexahedra[mesh.blocks == n], None) for n in numbers]
+    exodus.write_mesh(path, mesh.nodes, blocks, {name: nodes for name, nodes in mesh.sets.items() if len(nodes)})

@@ -52,38 +52,48 @@ def cells_of(row):
     return [cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", row)[1:-1]]
 
 
-def key_of(row):
-    name, kind, unit, values, default, meaning = cells_of(row)
-    choices = re.findall(r"`([^`]*)`", values) if kind == "choice" else []
+# "real > 0, m": kind, range, unit.
+VALUE = re.compile(r"(3 reals|\w+)(?: (?:[<>≥≤] [^,]+|in [\[(].*?[\])]))?(?:, (.*))?")
+
+
+def keys_of(row):
+    """The keys of a row: one, or three along the axes."""
+    names, value, default, meaning = cells_of(row)
+    choices = re.findall(r"`([^`]*)`", value)
+    kind, unit = ("choice", "") if choices else VALUE.fullmatch(value).groups()
     required = default == "required"
     given = None if required or default == "—" else default.strip("`")
-    return Key(name.strip("`"), kind, "" if unit == "—" else unit, choices, given, required, meaning)
+    for name in names.split(", "):
+        yield Key(name.strip("`"), kind, unit or "", choices, given, required, meaning)
 
 
 def parse(page):
     """A section below another belongs to the case of that one which the page has named last, if it has cases."""
     whole = Section("")
     known = {"": whole}  # where a section below this path belongs: the section, or its last case
-    now = whole
+    now = [whole]  # those that the next rows belong to: keys that several cases share have a heading with all of them
     for line in page.splitlines():
         heading = re.fullmatch(r"## (.*?)( \(required\))?", line)
-        case = re.fullmatch(r'### (.*), (.*) = "(.*)"', line)
+        case = re.fullmatch(r"### (.*), (.*?) = (\".*\")", line)
         if case:
-            path, selector, name = case.groups()
+            path, selector, quoted = case.groups()
+            names = re.findall(r'"([^"]*)"', quoted)
             owner = known[path] if not known[path].case else known[path + "\n"]
             known[path + "\n"] = owner
             owner.selector = selector
-            now = owner.cases[name] = known[path] = Section(path, case=name)
+            if len(names) == 1:
+                owner.cases[names[0]] = known[path] = Section(path, case=names[0])
+            now = [owner.cases[name] for name in names]
         elif heading and heading[1] != "The whole deck":
             path = heading[1]
             parent, _, name = path.rpartition(" > ")
-            now = Section(path, required=bool(heading[2]))
-            known[parent].sections[name] = known[path] = now
+            now = [Section(path, required=bool(heading[2]))]
+            known[parent].sections[name] = known[path] = now[0]
             known.pop(path + "\n", None)
-        elif line.startswith("| `") or line.startswith(f"| {ANY} |"):
-            key = key_of(line) if len(cells_of(line)) == 6 else None
-            if key:
-                now.keys[key.name] = key
+        elif (line.startswith("| `") or line.startswith(f"| {ANY} |")) and len(cells_of(line)) == 4:
+            for key in keys_of(line):
+                for section in now:
+                    section.keys[key.name] = key
     return whole
 
 

@@ -189,7 +189,6 @@ VALUES = {
 # Choices and switches: with the schema's own list, each with the same chance, unless scenes.py has a say.
 NOT_DRAWN = {
     "Discretization > Input Mesh File": FILES,
-    "Discretization > Trial Reads": Not("how a file is read: unit/io/test_io"),
     "Discretization > Degenerate Points": Not("points that are left out: unit tests of set-up"),
     "Discretization > Bond Filters > (any name)": COMPOSED,
     "Discretization > TensorProduct3DMeshGenerator": COMPOSED,

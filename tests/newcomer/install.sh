@@ -36,6 +36,6 @@ python3 - $share/tools/shared > log 2>&1 << 'END' || fail "tools in Python do no
 import subprocess, sys
 sys.path.insert(0, sys.argv[1])
 import strut_tools
-subprocess.run([*strut_tools.programs("strut"), "--version"], check=True)
+subprocess.run([strut_tools.program("strut"), "--version"], check=True)
 END
 exit $failed

@@ -2,8 +2,8 @@
 beyond it."""
 import os
 
-import classic_netcdf
 import numpy as np
+from exodus import names_in, opened
 
 SOLIDS = ("HEX", "TET")
 NUMBERS = ["centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "moment_zz"]
@@ -14,17 +14,13 @@ def size_of(path, block):
     if not os.path.isfile(path):
         return None
     try:
-        with classic_netcdf.opened(path) as file:
-            boxes = [box_of(file, n) for n, name in enumerate(names_of(file, "eb_names"), 1) if block in (None, name)]
+        with opened(path) as file:
+            boxes = [box_of(file, n) for n, name in enumerate(names_in(file, "eb_names"), 1) if block in (None, name)]
     except (OSError, KeyError, AttributeError):
         return None
     if not boxes or any(box is None for box in boxes):
         return None
     return np.max([high for _, high in boxes], axis=0) - np.min([low for low, _ in boxes], axis=0)
-
-
-def names_of(file, variable):
-    return [row.tobytes().decode(errors="replace").split("\0")[0].strip() for row in file.variables[variable][:]]
 
 
 def nodes_of(file, number):
@@ -38,7 +34,7 @@ def nodes_of(file, number):
 def prisms_of(file, number):
     """Partly filled cells as prisms: centers and half edges (√3 times their radii of gyration); None for other
     elements."""
-    names = names_of(file, f"attrib_name{number}") if f"attrib_name{number}" in file.variables else []
+    names = names_in(file, f"attrib_name{number}")
     if not all(name in names for name in NUMBERS):
         return None
     held = file.variables[f"attrib{number}"][:][:, [names.index(name) for name in NUMBERS]]

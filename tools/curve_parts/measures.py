@@ -64,14 +64,6 @@ def crossing(x, y, level):
     return float(x[i] + (level - y[i]) / (y[i + 1] - y[i]) * (x[i + 1] - x[i]))
 
 
-def first_crossing(x, y, level):
-    above = np.flatnonzero(y >= level)
-    if len(above) == 0:
-        return None
-    i = above[0]
-    return float(x[0]) if i == 0 else float(x[i - 1] + (level - y[i - 1]) / (y[i] - y[i - 1]) * (x[i] - x[i - 1]))
-
-
 def line(strain, stress, low, high):
     """Slope, and strain at zero stress, of the straight line through the rows with stresses from low to high; None for
     fewer than three rows."""
@@ -166,7 +158,7 @@ def measures_of_ends(e, s, o):
     between = f"from {100 * low:g} to {100 * high:g} % strain"
     return [
         Measure("mean_stress", mean_between(e, s, low, high), "Pa", f"mean {between} at the end of the curve, in equilibrium or not", ends),
-        Measure("mean_stress_other_end", None if o is None else mean_between(e, o, low, high), "Pa", f"the same at the other end",
+        Measure("mean_stress_other_end", None if o is None else mean_between(e, o, low, high), "Pa", "the same at the other end",
                 one_end if o is None else ends),
         Measure("ends_apart", None if o is None or not there else apart(e, s, o, low, high), "1",
                 f"difference of both ends over their mean, {between} (in equilibrium up to {MOST_APART:g}, Ravichandran & Subhash 1994)",

@@ -27,8 +27,6 @@ class Front:
     behind: float         # s: when it had passed half of the middle
 
 
-
-
 def strains(places):
     """Strain of the gaps between layers: 1 - (z_k+1 - z_k)/(Z_k+1 - Z_k); places: rows x layers, row 0: reference."""
     gaps = np.diff(places, axis=1)

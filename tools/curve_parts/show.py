@@ -1,12 +1,10 @@
 """Tables, CSV with units and the figure of a curve."""
-import csv
-
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from strut_tools import save_picture
+from strut_tools import save_picture, write_table
 
 # The beginnings of the tables.
 CURVE = ["Time (s)", "Strain (1)"]
@@ -23,27 +21,17 @@ def say(about, found):
         print(f"{m.name:<24} {value:>12} {'' if m.unit == '1' else m.unit:<6} {m.said()}")
 
 
-def rows_to(path, header, rows):
-    with open(path, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(header)
-        writer.writerows(rows)
-
-
 def write_curve(path, times, strain, names, stresses):
     W = np.concatenate([[0], np.cumsum(0.5 * (stresses[0][1:] + stresses[0][:-1]) * np.diff(strain))])
-    header = [*CURVE, *[f"Stress (Pa) of {name}" for name in names[:2]], "Energy (J/m3)"]
-    rows_to(path, header, [[f"{x:.9g}" for x in row] for row in zip(times, strain, *stresses, W)])
+    write_table(path, [*CURVE, *[f"Stress (Pa) of {name}" for name in names[:2]], "Energy (J/m3)"], zip(times, strain, *stresses, W))
 
 
 def write_measures(path, found):
-    rows_to(path, MEASURES,
-            [[m.name, "" if m.value is None else f"{m.value:.9g}", m.unit, m.said()] for m in found])
+    write_table(path, MEASURES, [[m.name, m.value, m.unit, m.said()] for m in found])
 
 
 def write_front(path, front):
-    rows_to(path, FRONT,
-            [[f"{x:.9g}", f"{t:.9g}"] for x, t in zip(front.places, front.arrivals)])
+    write_table(path, FRONT, zip(front.places, front.arrivals))
 
 
 def scaled(pascals):

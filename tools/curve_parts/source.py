@@ -1,12 +1,13 @@
-"""Nominal stress and strain from a deck and its history: the columns of force and shortening, area and height."""
-import csv
+"""Nominal stress and strain from a deck and its history: the columns of force and shortening, area and height; the options
+that name them."""
 import os
 import re
 from dataclasses import dataclass, field
 
 import numpy as np
+import strut_tools
 from decks import Recipe, value_at, value_in
-from strut_tools import fail, nearest
+from strut_tools import Parser, fail, nearest
 
 from . import extent
 
@@ -14,31 +15,38 @@ FORCES = re.compile(r"(?:Instant_)?(Reaction|Contact_Force)_([XYZ])\((.+)\)")
 LAYERS = re.compile(r"Mean_(Velocity|Coordinate)_([XYZ])\((.+) (\d+)\)")
 
 
+def parser_of(about, kind=Parser):
+    """The options of tools/curve, which a study may also set in a line."""
+    parser = kind(prog="tools/curve", description=about)
+    add = parser.add_argument
+    add("deck", help="the deck of the run (XML), or its history (.csv)")
+    add("out", nargs="?", default=".", help="folder to write to (default: this one)")
+    add("--results", default=".", metavar="FOLDER", help="that the run was started from (default: this one)")
+    add("--force", metavar="COLUMN", help="of the history, N (default: its first reaction or contact force along the axis)")
+    add("--other", metavar="COLUMN", help="the force at the other end, N (default: the second one)")
+    add("--shortening", metavar="COLUMN|EXPRESSION", help="m (default: mean displacements, layers or the deck's motion)")
+    add("--axis", choices=("x", "y", "z"), help="of compression (default: that of the force)")
+    add("--block", metavar="NAME", help="that is crushed")
+    add("--layers", metavar="NAME", help="profile of the history, for the front (default: the first one)")
+    parser.add_numbers("--area", 1, above=0, metavar="A", help="m2, of the section (default: from the recipe or the result)")
+    parser.add_numbers("--height", 1, above=0, metavar="H", help="m (default: likewise)")
+    parser.add_numbers("--density", 1, above=0, metavar="RHO", help="kg/m3, of the foam (default: likewise)")
+    parser.add_numbers("--smooth", 1, kind=int, above=0, metavar="N", default=1, help="mean over N rows of stress (default 1: none)")
+    return parser
+
+
 def history(path):
     """Columns by name, in their order. An incomplete last line, which a run may be writing, is ignored."""
     if not os.path.isfile(path):
         fail(f"{path} does not exist: --results names the folder that the run was started from")
-    try:
-        with open(path, newline="") as file:
-            text = file.read()
-        lines = text[:text.rfind("\n") + 1].splitlines()
-        rows = list(csv.reader(line for line in lines if not line.startswith("#")))
-        odd = next((row for row in rows[1:] if len(row) != len(rows[0])), None)
-        if odd is not None:
-            fail(f"{path} is damaged: the row of t = {(odd or ['?'])[0]} has {len(odd)} values, expected {len(rows[0])} as in its head")
-        table = np.array([[float(x) for x in row] for row in rows[1:]])
-    except (UnicodeDecodeError, ValueError, IndexError) as error:
-        fail(f"{path} is not a history: {error}")
-    if not rows or "Time" not in rows[0] or len(table) < 2:
-        fail(f"{path} is not a history, or has not yet two rows")
-    twice = next((name for name in rows[0] if rows[0].count(name) > 1), None)
-    if twice:
-        fail(f"{path} has two columns '{twice}', expected each once")
-    times = table[:, rows[0].index("Time")]
+    table = strut_tools.history(path, growing=True)
+    times = table["Time"]
+    if len(times) < 2:
+        fail(f"{path} has not yet two rows")
     back = np.flatnonzero(~(np.diff(times) > 0))
     if len(back):
         fail(f"{path}: its times do not rise from row to row, from {times[back[0]]:g} to {times[back[0] + 1]:g} s (two runs in one file?)")
-    return {name: table[:, i] for i, name in enumerate(rows[0])}
+    return table
 
 
 @dataclass

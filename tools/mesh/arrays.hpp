@@ -1,4 +1,4 @@
-// A mesh as a stream of arrays from another program (tools/README.md has the format).
+// Voxels from another program, as a stream (tools/README.md has the format), gathered in cells.
 #pragma once
 
 #include <istream>

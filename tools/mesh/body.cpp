@@ -1,14 +1,15 @@
 #include "mesh/body.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
 #include "base/errors.hpp"
+#include "io/exodus/elements.hpp"
 #include "mesh/cells.hpp"
 #include "mesh/foam.hpp"
-#include "mesh/layers.hpp"
 #include "mesh/section.hpp"
 
 namespace strut::mesh {
@@ -64,8 +65,6 @@ struct Extrusion {
 
   double width(int level) const { return 1 + (taper - 1) * (levels[level] / levels.back()); }
   io::Mesh hexahedra() const;
-  io::Mesh spheres() const;
-  std::vector<int> cells_touching(const std::vector<int>& nodes) const;
   static std::vector<int> repeated(const std::vector<int>& base, int stride, int times);
 };
 
@@ -105,44 +104,6 @@ io::Mesh Extrusion::hexahedra() const {
   return mesh;
 }
 
-// One sphere per cell, in the sets that any of the cell's nodes would be in: the same points as from hexahedra.
-io::Mesh Extrusion::spheres() const {
-  io::Mesh mesh;
-  const int stride = static_cast<int>(section.cells.size());
-  io::Mesh::Block& block = mesh.blocks.emplace_back();
-  block.type = "SPHERE";
-  for (int k = 0; k < layers; ++k) {
-    const double a = width(k), b = width(k + 1), h = levels[k + 1] - levels[k];
-    const double volume = mean_square(a, b) * h;                        // ∫ w² dz, for a cell of area 1
-    const double outward = (a + b) * (a * a + b * b) / 4 * h / volume;  // ∫ w³ dz over it
-    const double height = (levels[k] + levels[k + 1]) / 2 + h * (b * b - a * a) / (12 * mean_square(a, b));
-    for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
-      const Section::Shape shape = section.shape(cell);
-      block.nodes.push_back(static_cast<int>(mesh.nodes.size()));
-      block.volumes.push_back(shape.area * volume);
-      mesh.nodes.emplace_back(outward * shape.centroid.x(), outward * shape.centroid.y(), height);
-    }
-  }
-  mesh.node_sets = {{"zmin", range(0, stride)}, {"zmax", range((layers - 1) * stride, layers * stride)}};
-  for (const auto& [name, nodes] : section.sides) {
-    mesh.node_sets.push_back({name, repeated(cells_touching(nodes), stride, layers)});
-  }
-  return mesh;
-}
-
-std::vector<int> Extrusion::cells_touching(const std::vector<int>& nodes) const {
-  std::vector<char> marked(section.nodes.size(), 0);
-  for (const int node : nodes) marked[node] = 1;
-  std::vector<int> cells;
-  for (std::size_t c = 0; c < section.cells.size(); ++c) {
-    const auto& cell = section.cells[c];
-    if (std::any_of(cell.begin(), cell.end(), [&](int node) { return marked[node]; })) {
-      cells.push_back(static_cast<int>(c));
-    }
-  }
-  return cells;
-}
-
 std::string thickness_of(const std::vector<double>& levels) {
   const std::size_t layers = levels.size() - 1;
   const double first = levels[1] - levels[0], last = levels[layers] - levels[layers - 1];
@@ -165,8 +126,8 @@ std::string summary_of(const Body& body, const Section& section, const std::vect
   double area = 0;
   double smallest = INFINITY;
   for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
-    area += section.shape(cell).area;
-    smallest = std::min(smallest, section.shape(cell).area);
+    area += section.area(cell);
+    smallest = std::min(smallest, section.area(cell));
   }
   const double taper = taper_of(body);
   area *= mean_square(1, taper);
@@ -212,7 +173,7 @@ io::Mesh extruded(const Body& body, std::string& summary) {
   const Section section = section_of(body, across);
   const Extrusion extrusion{section, levels, taper_of(body)};
   summary = summary_of(body, section, levels);
-  return body.elements == Body::Elements::spheres ? extrusion.spheres() : extrusion.hexahedra();
+  return extrusion.hexahedra();
 }
 
 // The voxels whose center is in the body: all for a box, or those of a cylinder around the center of the grid.
@@ -273,7 +234,37 @@ io::Mesh shaped(const Body& body, std::string& summary) {
     check_cells(body, body.size);
     return foam_mesh(body, summary);
   }
+  if (body.shape == Body::Shape::lattice) {
+    check_cells(body, body.size);
+    return lattice_mesh(body, summary);
+  }
   return body.cells > 0 ? gathered_body(body, summary) : extruded(body, summary);
+}
+
+// A sphere for each hexahedron, in the sets that any of its nodes is in: the same points.
+io::Mesh spheres_of(const io::Mesh& hexahedra) {
+  io::Mesh mesh;
+  io::Mesh::Block& block = mesh.blocks.emplace_back();
+  block.type = "SPHERE";
+  const std::vector<int>& corners = hexahedra.blocks[0].nodes;
+  for (std::size_t corner = 0; corner < corners.size(); corner += 8) {
+    std::array<Vector, 8> nodes;
+    for (std::size_t k = 0; k < 8; ++k) nodes[k] = hexahedra.nodes[corners[corner + k]];
+    const io::ElementPoint point = io::hexahedron(nodes);
+    block.nodes.push_back(static_cast<int>(mesh.nodes.size()));
+    block.volumes.push_back(point.volume);
+    mesh.nodes.push_back(point.centroid);
+  }
+  for (const io::Mesh::NodeSet& set : hexahedra.node_sets) {
+    std::vector<char> marked(hexahedra.nodes.size(), 0);
+    for (const int node : set.nodes) marked[node] = 1;
+    io::Mesh::NodeSet& own = mesh.node_sets.emplace_back(io::Mesh::NodeSet{set.name, {}});
+    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+      const int sphere = static_cast<int>(corner / 8);
+      if (marked[corners[corner]] && (own.nodes.empty() || own.nodes.back() != sphere)) own.nodes.push_back(sphere);
+    }
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -281,6 +272,7 @@ io::Mesh shaped(const Body& body, std::string& summary) {
 io::Mesh mesh_of(const Body& body, std::string& summary) {
   io::Mesh mesh = shaped(body, summary);
   shift(mesh, body.origin);
+  if (body.elements == Body::Elements::spheres) mesh = spheres_of(mesh);
   if (body.shape == Body::Shape::file && !body.named) return mesh;
   mesh.blocks[0].name = body.name;
   for (auto& set : mesh.node_sets) set.name = body.name + "_" + set.name;

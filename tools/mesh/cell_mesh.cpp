@@ -66,7 +66,7 @@ std::vector<std::vector<int>> neighbors_of(const Cells& cells) {
 }
 
 io::Mesh cell_mesh(const Cells& cells) {
-  io::Mesh mesh = empty_mesh("HEX8");
+  io::Mesh mesh = empty_mesh();
   mesh.blocks[0].cells = cells.parts;
   add_hexahedra(mesh, cells);
   return mesh;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "mechanics/expected_error.hpp"
 #include "mesh/cells.hpp"
-#include "mesh/resolution.hpp"
+#include "mesh/lattices.hpp"
 #include "mesh/voxels.hpp"
 
 namespace strut::mesh {
@@ -24,6 +26,11 @@ std::string number(double value) {
   return text;
 }
 
+double volume_of(const Struts& struts) {
+  if (struts.fills.empty()) return static_cast<double>(struts.voxels.size());
+  return std::accumulate(struts.fills.begin(), struts.fills.end(), 0.0);
+}
+
 void check(const Body& body) {
   if (body.cell < fewest_voxels_in_a_cell * body.spacing) {
     throw Error("body '" + body.name + "': a cell of " + number(body.cell) + " m has fewer than 4 spacings of " +
@@ -36,11 +43,11 @@ void check(const Body& body) {
 
 // Struts thinner than a voxel are disconnected until the radius connects them, and then there are too many voxels.
 void check(const Body& body, const Struts& struts, std::size_t wanted) {
-  if (static_cast<double>(struts.voxels.size()) <= too_much * static_cast<double>(wanted)) return;
+  if (volume_of(struts) <= too_much * static_cast<double>(wanted)) return;
   throw Error("body '" + body.name +
               "': struts of this relative density would be thinner than the voxels; in one piece they are " +
               number(2 * struts.radius / body.spacing) + " spacings thick and have " +
-              number(static_cast<double>(struts.voxels.size()) / static_cast<double>(wanted)) +
+              number(volume_of(struts) / static_cast<double>(wanted)) +
               " times the density: take a smaller spacing or larger cells");
 }
 
@@ -63,7 +70,7 @@ std::string summary_of(const Body& body, const VoxelGrid& grid, const Skeleton& 
                 "  struts %.4g spacings = %.4g m thick; spacing %.6g %.6g %.6g m (asked for %g)\n",
                 body.name.c_str(), body.irregularity, static_cast<unsigned long long>(body.seed), points,
                 body.cells > 0 ? "voxels" : "points", grid.cells[0], grid.cells[1], grid.cells[2],
-                points / static_cast<double>(grid.count()), body.relative_density, struts.dropped_pieces,
+                volume_of(struts) / static_cast<double>(grid.count()), body.relative_density, struts.dropped_pieces,
                 struts.dropped_voxels, skeleton.cells, edges, length, thickness / std::cbrt(h.prod()), thickness, h[0],
                 h[1], h[2], body.spacing);
   if (body.cells > 0 || thickness >= thin * body.spacing) return text;
@@ -78,27 +85,124 @@ Body drawn(Body body) {
   return body;
 }
 
-io::Mesh gathered_mesh(const Body& body, const Struts& struts, const VoxelGrid& grid, std::string& summary) {
+bool is_periodic(const Body& body) { return body.periodic[0] || body.periodic[1] || body.periodic[2]; }
+
+std::string axes_of(const Body& body) {
+  std::string text = is_periodic(body) ? ", periodic along" : "";
+  for (int axis = 0; axis < 3; ++axis) text += body.periodic[axis] ? std::string(" ") + "xyz"[axis] : "";
+  return text;
+}
+
+// What else a recipe asked for.
+std::string summary_of_more(const Body& body, const Skeleton& skeleton) {
+  std::string text;
+  if (body.sizes > 0 || body.relax > 0 || body.stretch != Vector::Ones() || is_periodic(body)) {
+    text += "  volumes of the cells: standard deviation " + number(100 * skeleton.scatter) +
+            " % of their mean; stretched by " + number(body.stretch[0]) + " " + number(body.stretch[1]) + " " +
+            number(body.stretch[2]) + axes_of(body) + "\n";
+  }
+  if (body.node_thickness > 1 || body.three_cornered) {
+    text += std::string("  ") + (body.three_cornered ? "three-cornered" : "round") +
+            " struts: the thickness is that of a circle as large as the section in the middle; at nodes " +
+            number(body.node_thickness) + " times that\n";
+  }
+  return text;
+}
+
+io::Mesh mesh_of_cells(const Body& body, const Struts& struts, const std::string& members, const VoxelGrid& grid,
+                       std::string& summary) {
   const Gathering gathering{body.cells, body.smallest_cell};
-  const Cells cells = gathered(struts.voxels, {}, grid, gathering);
+  const Cells cells = gathered(struts.voxels, struts.fills, grid, gathering);
   summary += summary_of(cells, gathering);
-  summary += resolution_of("struts", 2 * struts.radius / std::cbrt(cells.grid.spacing().prod()));
+  if (struts.radius > 0) summary += resolution_of(members, 2 * struts.radius / std::cbrt(cells.grid.spacing().prod()));
   return cell_mesh(cells);
+}
+
+// Whole voxels at one level are kept or left out together; cells hold them in part.
+io::Mesh mesh_of_members(const Body& body, Struts struts, const std::string& members, const VoxelGrid& grid,
+                         std::string& summary) {
+  if (body.cells > 0) return mesh_of_cells(body, struts, members, grid, summary);
+  return voxel_mesh(struts.voxels, grid);
+}
+
+VoxelGrid grid_of_body(const Body& body) {
+  VoxelGrid grid = grid_of(body.size, body.spacing, std::max(1, body.cells));
+  grid.periodic = body.periodic;
+  return grid;
+}
+
+std::size_t wanted_of(const Body& body, const VoxelGrid& grid) {
+  return static_cast<std::size_t>(std::llround(body.relative_density * static_cast<double>(grid.count())));
+}
+
+std::string summary_of_lattice(const Body& body, const VoxelGrid& grid, const Struts& struts, bool is_solid) {
+  const Vector count = body.size / body.cell, h = grid.spacing();
+  std::ostringstream text;
+  text.precision(6);
+  text << body.name << ": " << body.lattice << " lattice, " << count.transpose() << " cells of " << body.cell << " m"
+       << axes_of(body) << ": " << struts.voxels.size() << (body.cells > 0 ? " voxels of " : " points of ")
+       << grid.cells.transpose() << "\n  relative density " << volume_of(struts) / static_cast<double>(grid.count());
+  if (body.relative_density > 0) text << " (asked for " << body.relative_density << ")";
+  text << " in one piece; " << struts.dropped_pieces << " other pieces of " << struts.dropped_voxels
+       << " in all dropped\n";
+  if (has_struts(body.lattice)) {
+    text << "  " << lattice_cell(body.lattice).size() << " struts a cell, ";
+  } else {
+    text << "  ";
+  }
+  if (!is_solid) text << 2 * struts.radius / std::cbrt(h.prod()) << " voxels = " << 2 * struts.radius << " m thick; ";
+  text << "spacing " << h.transpose() << " m\n";
+  return text.str();
+}
+
+Struts lattice_members(const Body& body, const VoxelGrid& grid) {
+  const bool struts = has_struts(body.lattice);
+  const StrutShape shape{.node = body.node_thickness};
+  const auto edges = [&] { return lattice_edges(body.lattice, body.size, body.cell); };
+  if (body.thickness > 0) {
+    const double half = body.thickness / 2;
+    return largest_piece_below(
+        struts ? strut_levels(edges(), shape, grid, half) : field_levels(surface_field(body.lattice, body.cell), grid),
+        grid, half);
+  }
+  if (struts) return struts_around(edges(), grid, wanted_of(body, grid), shape);
+  return largest_piece(field_levels(surface_field(body.lattice, body.cell), grid), grid, wanted_of(body, grid),
+                       grid.spacing().minCoeff());
 }
 
 }  // namespace
 
+io::Mesh lattice_mesh(const Body& body, std::string& summary) {
+  const Body fine = drawn(body);
+  check(fine);
+  const VoxelGrid grid = grid_of_body(body);
+  Struts struts = lattice_members(body, grid);
+  const bool is_solid = body.lattice == "gyroid" || body.lattice == "diamond";
+  if (body.relative_density > 0) check(fine, struts, wanted_of(body, grid));
+  summary = summary_of_lattice(fine, grid, struts, is_solid);
+  if (is_solid) struts.radius = 0;  // a value of the field
+  return mesh_of_members(body, struts, has_struts(body.lattice) ? "struts" : "sheets", grid, summary);
+}
+
 io::Mesh foam_mesh(const Body& body, std::string& summary) {
   const Body fine = drawn(body);
   check(fine);
-  const VoxelGrid grid = grid_of(body.size, body.spacing, std::max(1, body.cells));
-  const Skeleton skeleton = foam_skeleton(body.size, body.cell, body.irregularity, body.seed);
-  const auto wanted = static_cast<std::size_t>(std::llround(body.relative_density * static_cast<double>(grid.count())));
-  const Struts struts = struts_around(skeleton.edges, grid, wanted);
+  const VoxelGrid grid = grid_of_body(body);
+  const Skeleton skeleton = foam_skeleton(
+      body.size, {body.cell, body.irregularity, body.seed, body.sizes, body.relax, body.stretch, is_periodic(body)});
+  const std::size_t wanted = wanted_of(body, grid);
+  const Struts struts =
+      struts_around(skeleton.edges, grid, wanted, {.node = body.node_thickness, .three_cornered = body.three_cornered});
   check(fine, struts, wanted);
-  summary = summary_of(fine, grid, skeleton, struts);
-  if (body.cells > 0) return gathered_mesh(body, struts, grid, summary);
-  return voxel_mesh(struts.voxels, grid, body.elements);
+  summary = summary_of(fine, grid, skeleton, struts) + summary_of_more(body, skeleton);
+  return mesh_of_members(body, struts, "struts", grid, summary);
+}
+
+std::string resolution_of(const std::string& members, double cells) {
+  char text[100];
+  std::snprintf(text, sizeof text, "  %s %.4g cells thick: by quadratic correspondence expect ", members.c_str(),
+                cells);
+  return text + expected_error_text(cells, "in the plateau, where metal flows") + " (docs/resolution.md)\n";
 }
 
 }  // namespace strut::mesh

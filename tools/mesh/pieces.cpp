@@ -121,22 +121,35 @@ void add_surfaces(const Material& material, Pieces& pieces) {
     part.surface[axis] += area;
     part.surface_moments.row(axis) += area * (at.cwiseProduct(h) - part.centroid).transpose();
   };
+  const auto is_kept = [&](int v) { return v >= 0 && pieces.of[v] >= 0; };
   for (int v = 0; v < material.size(); ++v) {
-    if (pieces.of[v] < 0) continue;
+    for (int axis = 0; axis < 3 && is_kept(v); ++axis) {
+      const int w = material.beyond(v, axis);
+      if (is_kept(w)) has_lower[w][axis] = true;
+    }
+  }
+  for (int v = 0; v < material.size(); ++v) {
+    if (!is_kept(v)) continue;
     const double fill = material.fill(v);
     for (int axis = 0; axis < 3; ++axis) {
       if (!has_lower[v][axis]) add(v, axis, -fill, 0);
-      const int w = material.upper[v][axis];
-      const bool is_kept = w >= 0 && pieces.of[w] >= 0;
-      if (is_kept) has_lower[w][axis] = true;
-      const double beyond = is_kept ? material.fill(w) : 0;
-      const bool is_in_upper = is_kept && beyond < fill;
+      const int w = material.beyond(v, axis);
+      const double beyond = is_kept(w) ? material.fill(w) : 0;
+      const bool is_in_upper = is_kept(w) && beyond < fill;
       add(is_in_upper ? w : v, axis, fill - beyond, is_in_upper ? 0 : 1);
     }
   }
 }
 
 }  // namespace
+
+int Material::beyond(int v, int axis) const {
+  if (!grid.periodic[axis] || grid.cell(voxels[v])[axis] + 1 < grid.cells[axis]) return upper[v][axis];
+  const int stride = axis == 0 ? 1 : axis == 1 ? grid.cells[0] : grid.cells[0] * grid.cells[1];
+  const int wanted = voxels[v] - (grid.cells[axis] - 1) * stride;
+  const auto place = std::lower_bound(voxels.begin(), voxels.end(), wanted);
+  return place != voxels.end() && *place == wanted ? static_cast<int>(place - voxels.begin()) : -1;
+}
 
 Material material_of(const std::vector<int>& voxels, const std::vector<double>& fills, const VoxelGrid& grid) {
   const std::vector<Upper> upper = upper_neighbors(voxels, grid);

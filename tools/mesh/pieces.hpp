@@ -18,6 +18,8 @@ struct Material {
   std::vector<Upper> upper;
   std::vector<Upper> joined;  // the same, if connected
 
+  // The upper neighbor, also behind a side of a box that repeats.
+  int beyond(int v, int axis) const;
   double fill(int voxel) const { return fills.empty() ? 1 : fills[voxel]; }
   int size() const { return static_cast<int>(voxels.size()); }
 };

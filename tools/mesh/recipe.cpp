@@ -4,26 +4,110 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <map>
-#include <optional>
 #include <set>
 #include <sstream>
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
+#include "mesh/lattices.hpp"
 
 namespace strut::mesh {
 
 namespace {
 
-const std::vector<std::string> keys = {
-    "name", "shape",   "method",  "centred",  "elements",         "length",       "radius",
-    "size", "spacing", "origin",  "cell",     "relative_density", "irregularity", "seed",
-    "file", "grading", "uniform", "coarsest", "top_radius",       "cells",        "smallest_cell"};
+constexpr double tiny = std::numeric_limits<double>::min(), huge = std::numeric_limits<double>::max();
+constexpr double below_one = 1 - std::numeric_limits<double>::epsilon();
+constexpr const char* a_length = "a length > 0 in m";
 
-const std::vector<std::string> foam_keys = {"cell", "relative_density", "irregularity", "seed"};
-const std::vector<std::string> gathering_keys = {"cells", "smallest_cell"};
-const std::vector<std::string> grading_keys = {"grading", "uniform", "coarsest"};
+// Kinds of bodies, and groups of them that have a key in common.
+enum Kind : unsigned {
+  lattice_cylinder = 1,
+  fitted_cylinder = 2,
+  cone = 4,
+  box = 8,
+  foam = 16,
+  lattice = 32,
+  file = 64
+};
+constexpr unsigned round = lattice_cylinder | fitted_cylinder | cone;
+constexpr unsigned of_struts = foam | lattice;
+constexpr unsigned layered = fitted_cylinder | cone | box, gathered = lattice_cylinder | box | of_struts;
+constexpr unsigned made = round | box | of_struts, any = made | file;
+
+struct Key {
+  const char* name;
+  unsigned kinds;               // that have it
+  bool required = false;        // by all of them
+  const char* needs = nullptr;  // another key
+  double Body::*number = nullptr;
+  double low = 0, high = 0;
+  const char* expected = nullptr;
+  const char* unless = nullptr;  // a key that a lattice may have in its place
+};
+
+const std::vector<Key> keys = {
+    {"shape", any, true},
+    {"method", made},
+    {"name", any},
+    {"elements", made},
+    {"centred", lattice_cylinder},
+    {"spacing", made, true, nullptr, &Body::spacing, tiny, huge, a_length},
+    {"cells", gathered},
+    {"smallest_cell", gathered, false, "cells", &Body::smallest_cell, 0, 0.9, "a number from 0 to 0.9"},
+    {"grading", layered, false, nullptr, &Body::grading, 1, 2, "a number from 1 to 2"},
+    {"uniform", layered, false, "grading", &Body::uniform, tiny, huge, a_length},
+    {"coarsest", layered, false, "grading", &Body::coarsest, tiny, huge, a_length},
+    {"length", round, true, nullptr, &Body::length, tiny, huge, a_length},
+    {"radius", round, true, nullptr, &Body::radius, tiny, huge, a_length},
+    {"top_radius", cone, true, nullptr, &Body::top_radius, tiny, huge, a_length},
+    {.name = "size", .kinds = box | of_struts, .required = true, .unless = "count"},
+    {"cell", of_struts, true, nullptr, &Body::cell, tiny, huge, a_length},
+    {"relative_density", of_struts, true, nullptr, &Body::relative_density, tiny, below_one, "a number between 0 and 1",
+     "thickness"},
+    {"periodic", of_struts},
+    {"node_thickness", of_struts, false, nullptr, &Body::node_thickness, 1, 4, "a number from 1 to 4"},
+    {"irregularity", foam, false, nullptr, &Body::irregularity, 0, 1, "a number from 0 to 1"},
+    {"seed", foam},
+    {"sizes", foam, false, nullptr, &Body::sizes, 0, 0.6, "a number from 0 to 0.6"},
+    {"relax", foam},
+    {"stretch", foam},
+    {"section", foam},
+    {"lattice", lattice, true},
+    {"count", lattice},
+    {"thickness", lattice, false, nullptr, &Body::thickness, tiny, huge, a_length},
+    {"file", file, true},
+    {"origin", any}};
+
+std::vector<std::string> names_of_keys() {
+  std::vector<std::string> names;
+  for (const Key& key : keys) names.emplace_back(key.name);
+  return names;
+}
+
+Kind kind_of(const Body& body) {
+  switch (body.shape) {
+    case Body::Shape::cylinder:
+      return body.method == Body::Method::fitted ? fitted_cylinder : lattice_cylinder;
+    case Body::Shape::cone:
+      return cone;
+    case Body::Shape::box:
+      return box;
+    case Body::Shape::foam:
+      return foam;
+    case Body::Shape::lattice:
+      return lattice;
+    default:
+      return file;
+  }
+}
+
+std::string name_of(Kind kind) {
+  if (kind == lattice_cylinder) return "lattice cylinder";
+  if (kind == fitted_cylinder) return "fitted cylinder";
+  return kind == cone ? "cone" : kind == box ? "box" : kind == foam ? "foam" : kind == lattice ? "lattice" : "file";
+}
 
 struct Entry {
   std::string value;
@@ -103,9 +187,9 @@ class Lines {
     }
     const std::string key = trimmed(content.substr(0, sign));
     const std::string value = trimmed(content.substr(sign + 1));
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+    if (const auto names = names_of_keys(); std::find(names.begin(), names.end(), key) == names.end()) {
       if (key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_ ") != std::string::npos) take_foreign(content);
-      return fail(number, "unknown key '" + key + "'" + did_you_mean(key, keys) + "; keys are " + joined(keys));
+      return fail(number, "unknown key '" + key + "'" + did_you_mean(key, names) + "; keys are " + joined(names));
     }
     Entries& body = bodies_.empty() ? common_ : bodies_.back();
     if (value.empty()) return fail(number, "key '" + key + "' has no value");
@@ -135,133 +219,139 @@ class Converter {
 
   Body convert() {
     Body body;
-    body.shape = choice<Body::Shape>("shape", {"cylinder", "cone", "box", "foam", "file"}, std::nullopt);
-    if (const Entry* entry = entries_.find("origin")) body.origin = vector(*entry);
-    if (body.shape == Body::Shape::file) {
-      convert_file(body);
-    } else {
-      convert_made(body);
+    body.shape = choice<Body::Shape>("shape", {"cylinder", "cone", "box", "foam", "lattice", "file"}, 0);
+    const int usual = body.shape == Body::Shape::cone ? 1 : 0;
+    body.method = choice<Body::Method>("method", {"lattice", "fitted"}, usual);
+    const Kind kind = kind_of(body);
+    for (const Key& key : keys) {
+      const Entry* entry = entries_.find(key.name);
+      if (entry != nullptr) {
+        check_and_take(key, *entry, kind, body);
+      } else if (key.required && (key.kinds & kind) != 0 && !has_other(key, kind)) {
+        problems_.push_back("the body that starts in line " + std::to_string(entries_.line()) + " lacks the key '" +
+                            key.name + "'");
+      }
     }
-    if (const Entry* entry = entries_.find("name")) {
-      body.name = entry->value;
-      body.named = true;
-    }
+    check(body, kind);
     return body;
   }
 
  private:
-  void convert_file(Body& body) {
-    refuse({"method", "elements", "spacing", "length", "radius", "top_radius", "centred", "size"}, "file");
-    refuse(foam_keys, "file");
-    refuse(grading_keys, "file");
-    refuse(gathering_keys, "file");
-    const Entry* entry = required("file");
-    if (entry == nullptr) return;
-    body.file = folder_ / entry->value;
-    body.name = entry->value;
+  // True if another key stands in the place of this one.
+  bool has_other(const Key& key, Kind kind) const {
+    return kind == lattice && key.unless != nullptr && entries_.find(key.unless) != nullptr;
   }
 
-  void convert_made(Body& body) {
-    const bool cone = body.shape == Body::Shape::cone;
-    body.method = choice<Body::Method>("method", {"lattice", "fitted"}, cone ? "fitted" : "lattice");
-    body.elements = choice<Body::Elements>("elements", {"hex", "sphere"}, "hex");
-    body.spacing = length("spacing");
-    convert_gathering(body);
-    if (cone) return convert_cone(body);
-    if (body.shape == Body::Shape::cylinder) return convert_cylinder(body);
-    convert_box(body, body.shape == Body::Shape::foam ? "foam" : "box");
-    if (body.shape == Body::Shape::foam) convert_foam(body);
-  }
-
-  void convert_cylinder(Body& body) {
-    body.length = length("length");
-    body.radius = length("radius");
-    body.centered = choice<Body::Centered>("centred", {"point", "corner"}, "corner");
-    refuse({"size", "file", "top_radius"}, "cylinder");
-    refuse(foam_keys, "cylinder");
-    if (body.method == Body::Method::fitted) {
-      refuse({"centred"}, "fitted cylinder");
-      convert_grading(body);
-    } else {
-      refuse(grading_keys, "lattice cylinder");  // its cells are cubes
+  void check_and_take(const Key& key, const Entry& entry, Kind kind, Body& body) {
+    if ((key.kinds & kind) == 0) return fail(entry, "a " + name_of(kind) + " has no key '" + key.name + "'");
+    if (key.needs != nullptr && entries_.find(key.needs) == nullptr) {
+      return fail(entry, std::string("a body without the key '") + key.needs + "' has no key '" + key.name + "'");
     }
+    if (key.number == nullptr) return take(key.name, entry, kind, body);
+    body.*key.number = number(entry.value);
+    if (body.*key.number >= key.low && body.*key.number <= key.high) return;
+    fail(entry, std::string(key.name) + " is '" + entry.value + "', expected " + key.expected);
   }
 
-  void convert_cone(Body& body) {
-    body.length = length("length");
-    body.radius = length("radius");
-    body.top_radius = length("top_radius");
-    refuse({"size", "file", "centred"}, "cone");
-    refuse(foam_keys, "cone");
-    if (body.method == Body::Method::lattice) fail(*entries_.find("method"), "a cone has only the method fitted");
-    convert_grading(body);
-  }
-
-  void convert_box(Body& body, const std::string& shape) {
-    refuse({"length", "radius", "top_radius", "centred", "file"}, shape);
-    if (shape == "box") {
-      refuse(foam_keys, shape);
-      convert_grading(body);
-    } else {
-      refuse(grading_keys, shape);
+  // Keys that are no numbers with limits.
+  void take(const std::string& key, const Entry& entry, Kind kind, Body& body) {
+    if (key == "name" || (key == "file" && !body.named)) body.name = entry.value;
+    if (key == "name") body.named = true;
+    if (key == "file") body.file = folder_ / entry.value;
+    if (key == "elements") body.elements = choice<Body::Elements>(key, {"hex", "sphere"}, 0);
+    if (key == "centred") body.centered = choice<Body::Centered>(key, {"point", "corner"}, 1);
+    if (key == "origin") body.origin = vector(entry);
+    if (key == "seed") body.seed = whole(entry);
+    if (key == "method" && kind == cone && body.method == Body::Method::lattice) {
+      fail(entry, "a cone has only the method fitted");
     }
-    if (body.method == Body::Method::fitted)
-      fail(*entries_.find("method"), "a " + shape + " has only the method lattice");
-    const Entry* entry = required("size");
-    if (entry == nullptr) return;
-    body.size = vector(*entry);
-    if (!(body.size.minCoeff() > 0)) fail(*entry, "size is '" + entry->value + "', expected three lengths > 0");
-  }
-
-  void convert_foam(Body& body) {
-    body.cell = length("cell");
-    if (const Entry* entry = required("relative_density")) {
-      body.relative_density = number(entry->value).value_or(NAN);
-      if (!(body.relative_density > 0 && body.relative_density < 1)) {
-        fail(*entry, "relative_density is '" + entry->value + "', expected a number between 0 and 1");
+    if (key == "method" && (kind & (box | of_struts)) != 0 && body.method == Body::Method::fitted) {
+      fail(entry, "a " + name_of(kind) + " has only the method lattice");
+    }
+    if (key == "relax") take_relax(entry, body);
+    if (key == "section") {
+      body.three_cornered = choice<Section>(key, {"round", "three-cornered"}, 0) == Section::three_cornered;
+    }
+    if (key == "periodic") take_axes(entry, body);
+    if (key == "lattice") take_lattice(entry, body);
+    if (key == "count") take_count(entry, body);
+    if (key == "stretch") {
+      body.stretch = vector(entry);
+      if (!(body.stretch.minCoeff() >= 0.2 && body.stretch.maxCoeff() <= 5)) {
+        fail(entry, "stretch is '" + entry.value + "', expected three numbers from 0.2 to 5");
       }
     }
-    if (const Entry* entry = entries_.find("irregularity")) {
-      body.irregularity = number(entry->value).value_or(NAN);
-      if (!(body.irregularity >= 0 && body.irregularity <= 1)) {
-        fail(*entry, "irregularity is '" + entry->value + "', expected a number from 0 to 1");
+    if (key == "size") {
+      body.size = vector(entry);
+      if (!(body.size.minCoeff() > 0)) fail(entry, "size is '" + entry.value + "', expected three lengths > 0");
+    }
+    if (key == "cells") {
+      const double value = number(entry.value);
+      const bool fits = value >= 2 && value <= 16 && value == std::floor(value);
+      if (!fits) return fail(entry, "cells is '" + entry.value + "', expected a whole number from 2 to 16");
+      body.cells = static_cast<int>(value);
+    }
+  }
+
+  enum class Section { round, three_cornered };
+
+  void take_relax(const Entry& entry, Body& body) {
+    const double value = number(entry.value);
+    const bool fits = value >= 0 && value <= 1000 && value == std::floor(value);
+    if (!fits) return fail(entry, "relax is '" + entry.value + "', expected a whole number from 0 to 1000");
+    body.relax = static_cast<int>(value);
+  }
+
+  void take_axes(const Entry& entry, Body& body) {
+    std::istringstream stream(entry.value);
+    for (std::string word; stream >> word;) {
+      const bool is_axis = word.size() == 1 && word[0] >= 'x' && word[0] <= 'z';
+      if (!is_axis) {
+        return fail(entry, "periodic is '" + entry.value + "', expected axes: x, y, z, with blanks between");
+      }
+      body.periodic[word[0] - 'x'] = true;
+    }
+  }
+
+  void take_lattice(const Entry& entry, Body& body) {
+    const std::vector<std::string>& names = lattice_names();
+    body.lattice = entry.value;
+    if (std::find(names.begin(), names.end(), entry.value) != names.end()) return;
+    fail(entry,
+         "lattice is '" + entry.value + "', expected " + joined(names, " or ") + did_you_mean(entry.value, names));
+  }
+
+  // Whole cells along each axis; one number holds for all three.
+  void take_count(const Entry& entry, Body& body) {
+    const std::string& text = entry.value;
+    const bool is_one = text.find_first_of(" \t") == std::string::npos;
+    const Vector count = is_one ? Vector(Vector::Constant(number(text))) : vector(entry);
+    const bool fits = (count.array() >= 1).all() && (count.array() == count.array().floor()).all();
+    if (!fits) return fail(entry, "count is '" + text + "', expected one or three whole numbers of cells");
+    body.size = count * body.cell;
+  }
+
+  void check_lattice(const Body& body) {
+    for (const auto& [one, other] : {std::pair("size", "count"), {"relative_density", "thickness"}}) {
+      const Entry* entry = entries_.find(other);
+      if (entry && entries_.find(one)) fail(*entry, std::string(other) + " and " + one + " exclude each other");
+    }
+    const Entry* thickness = entries_.find("thickness");
+    if (thickness && (body.lattice == "gyroid" || body.lattice == "diamond")) {
+      fail(*thickness, "a solid on one side of a surface has no thickness; expected relative_density");
+    }
+  }
+
+  void check(const Body& body, Kind kind) {
+    if (kind == lattice) check_lattice(body);
+    if (const Entry* entry = entries_.find("cells"); entry != nullptr && (kind & gathered) != 0) {
+      if (body.elements == Body::Elements::spheres) fail(*entry, "a body of spheres has no key 'cells'");
+      if (body.cells > 0 && entries_.find("grading") != nullptr && kind == box) {
+        fail(*entries_.find("grading"), "cells that gather voxels are all alike: leave out grading or cells");
       }
     }
-    if (const Entry* entry = entries_.find("seed")) body.seed = whole(*entry);
-  }
-
-  // For cubes only: call it after the method and the elements.
-  void convert_gathering(Body& body) {
-    const Entry* cells = entries_.find("cells");
-    if (cells == nullptr) return refuse({"smallest_cell"}, "body without the key 'cells'");
-    if (body.shape == Body::Shape::cone) return refuse(gathering_keys, "cone");
-    if (body.method == Body::Method::fitted) return refuse(gathering_keys, "fitted body");
-    if (body.elements == Body::Elements::spheres) return refuse(gathering_keys, "body of spheres");
-    const double value = number(cells->value).value_or(NAN);
-    if (!(value >= 2 && value <= 16 && value == std::floor(value))) {
-      return fail(*cells, "cells is '" + cells->value + "', expected a whole number from 2 to 16");
-    }
-    body.cells = static_cast<int>(value);
-    const Entry* smallest = entries_.find("smallest_cell");
-    if (smallest == nullptr) return;
-    body.smallest_cell = number(smallest->value).value_or(NAN);
-    if (!(body.smallest_cell >= 0 && body.smallest_cell <= 0.9)) {
-      fail(*smallest, "smallest_cell is '" + smallest->value + "', expected a number from 0 to 0.9");
-    }
-  }
-
-  void convert_grading(Body& body) {
-    const Entry* grading = entries_.find("grading");
-    if (grading == nullptr) return refuse({"uniform", "coarsest"}, "body without grading");
-    if (body.cells > 0) return fail(*grading, "cells that gather voxels are all alike: leave out grading or cells");
-    body.grading = number(grading->value).value_or(NAN);
-    if (!(body.grading >= 1 && body.grading <= 2)) {
-      fail(*grading, "grading is '" + grading->value + "', expected a number from 1 to 2");
-    }
-    if (entries_.find("uniform")) body.uniform = length("uniform");
-    if (const Entry* entry = entries_.find("coarsest")) {
-      body.coarsest = length("coarsest");
-      if (body.coarsest < body.spacing) fail(*entry, "coarsest is less than the spacing, with which layers begin");
+    if (body.coarsest > 0 && body.coarsest < body.spacing) {
+      fail(*entries_.find("coarsest"), "coarsest is less than the spacing, with which layers begin");
     }
   }
 
@@ -278,52 +368,29 @@ class Converter {
     problems_.push_back("line " + std::to_string(entry.line) + ": " + problem);
   }
 
-  void refuse(const std::vector<std::string>& keys, const std::string& shape) {
-    for (const std::string& key : keys) {
-      if (const Entry* entry = entries_.find(key)) fail(*entry, "a " + shape + " has no key '" + key + "'");
-    }
-  }
-
-  const Entry* required(const std::string& key) {
-    const Entry* entry = entries_.find(key);
-    if (entry == nullptr) {
-      problems_.push_back("the body that starts in line " + std::to_string(entries_.line()) + " lacks the key '" + key +
-                          "'");
-    }
-    return entry;
-  }
-
+  // One of the words; the one of the number `usual` where the key is not there.
   template <class Enum>
-  Enum choice(const std::string& key, const std::vector<std::string>& words, std::optional<std::string> otherwise) {
-    const Entry* entry = otherwise ? entries_.find(key) : required(key);
-    if (entry == nullptr && !otherwise) return Enum{};
-    const std::string word = entry ? entry->value : *otherwise;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      if (words[i] == word) return static_cast<Enum>(i);
-    }
-    fail(*entry, key + " is '" + word + "', expected " + joined(words, " or ") + did_you_mean(word, words));
-    return Enum{};
+  Enum choice(const std::string& key, const std::vector<std::string>& words, int usual) {
+    const Entry* entry = entries_.find(key);
+    if (entry == nullptr) return static_cast<Enum>(usual);
+    const auto found = std::find(words.begin(), words.end(), entry->value);
+    if (found != words.end()) return static_cast<Enum>(found - words.begin());
+    fail(*entry,
+         key + " is '" + entry->value + "', expected " + joined(words, " or ") + did_you_mean(entry->value, words));
+    return static_cast<Enum>(usual);
   }
 
-  static std::optional<double> number(const std::string& word) {
+  // Returns NaN if the word is no finite number.
+  static double number(const std::string& word) {
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
-    return value;
-  }
-
-  double length(const std::string& key) {
-    const Entry* entry = required(key);
-    if (entry == nullptr) return 1;
-    const std::optional<double> value = number(entry->value);
-    if (!value || *value <= 0) fail(*entry, key + " is '" + entry->value + "', expected a length > 0 in m");
-    return value.value_or(1);
+    return error == std::errc() && end == word.data() + word.size() && std::isfinite(value) ? value : NAN;
   }
 
   Vector vector(const Entry& entry) {
     std::istringstream stream(entry.value);
     std::vector<double> values;
-    for (std::string word; stream >> word;) values.push_back(number(word).value_or(NAN));
+    for (std::string word; stream >> word;) values.push_back(number(word));
     const bool fits = values.size() == 3 && std::isfinite(values[0] + values[1] + values[2]);
     if (fits) return {values[0], values[1], values[2]};
     fail(entry, "'" + entry.value + "' is not three numbers");

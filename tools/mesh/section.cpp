@@ -1,5 +1,6 @@
 #include "mesh/section.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -55,19 +56,39 @@ std::vector<int> nodes_where(const Section& section, const std::function<bool(co
   return nodes;
 }
 
+std::vector<double> uniform_levels(double spacing, double height) {
+  const int layers = std::max(1, static_cast<int>(std::lround(height / spacing)));
+  const double layer = height / layers;
+  std::vector<double> levels;
+  for (int k = 0; k <= layers; ++k) levels.push_back(layer * k);
+  return levels;
+}
+
+double next_thickness(const Body& body, double thickness, double level) {
+  if (level < body.uniform * (1 - 1e-9)) return thickness;  // round-off adds no layer
+  const double grown = thickness * body.grading;
+  return body.coarsest > 0 ? std::min(grown, body.coarsest) : grown;
+}
+
+std::vector<double> graded_levels(const Body& body, double height) {
+  std::vector<double> levels{0};
+  double thickness = body.spacing;
+  // The number of layers closest to the height.
+  while (levels.size() == 1 || levels.back() + thickness / 2 <= height) {
+    levels.push_back(levels.back() + thickness);
+    thickness = next_thickness(body, thickness, levels.back());
+  }
+  const double scale = height / levels.back();
+  for (double& level : levels) level *= scale;
+  levels.back() = height;
+  return levels;
+}
+
 }  // namespace
 
-Section::Shape Section::shape(std::size_t cell) const {
-  const Point& origin = nodes[cells[cell][0]];
-  Shape shape{Point::Zero(), 0};
-  for (int t = 1; t <= 2; ++t) {  // two triangles
-    const Point a = nodes[cells[cell][t]] - origin;
-    const Point b = nodes[cells[cell][t + 1]] - origin;
-    shape.area += cross(a, b) / 2;
-    shape.centroid += cross(a, b) / 2 * (a + b) / 3;
-  }
-  shape.centroid = origin + shape.centroid / shape.area;
-  return shape;
+double Section::area(std::size_t cell) const {
+  const auto& [a, b, c, d] = cells[cell];
+  return cross(nodes[c] - nodes[a], nodes[d] - nodes[b]) / 2;  // of its diagonals
 }
 
 Section lattice_disc(double radius, double spacing, Body::Centered centered) {
@@ -105,6 +126,10 @@ Section rectangle(double a, double b, double spacing) {
                    {"ymin", nodes_where(section, [](const Point& p) { return p.y() == 0; })},
                    {"ymax", nodes_where(section, [&](const Point& p) { return p.y() == b; })}};
   return section;
+}
+
+std::vector<double> levels_of(const Body& body, double height) {
+  return body.grading > 1 ? graded_levels(body, height) : uniform_levels(body.spacing, height);
 }
 
 }  // namespace strut::mesh

@@ -1,4 +1,4 @@
-// Cross-sections of quadrilaterals: the bodies' shapes in the plane.
+// Cross-sections of quadrilaterals, the bodies' shapes in the plane, and the layers in which they are extruded.
 #pragma once
 
 #include <Eigen/Dense>
@@ -18,11 +18,7 @@ struct Section {
   std::vector<std::array<int, 4>> cells;                        // nodes, counter-clockwise
   std::vector<std::pair<std::string, std::vector<int>>> sides;  // named lines of nodes
 
-  struct Shape {
-    Point centroid;
-    double area = 0;
-  };
-  Shape shape(std::size_t cell) const;
+  double area(std::size_t cell) const;
 };
 
 // Squares of the spacing with their centers within the radius; the axis is at a center, or at a corner of four.
@@ -33,5 +29,10 @@ Section fitted_disc(double radius, double spacing);
 
 // The lower corner is at the origin; sides xmin, xmax, ymin, ymax.
 Section rectangle(double a, double b, double spacing);
+
+// Heights of the layers' faces over a body of this height (m), from 0 to it: equal layers, as thick as the spacing up
+// to rounding; or graded ones, with the spacing over the length `uniform`, then each `grading` times as thick as the
+// one below, up to `coarsest`; then all are scaled to fit the height.
+std::vector<double> levels_of(const Body& body, double height);
 
 }  // namespace strut::mesh

@@ -56,27 +56,6 @@ class Corners {
   std::array<std::vector<int>, 2> planes_;
 };
 
-void add_hexahedra(io::Mesh& mesh, const std::vector<int>& voxels, const VoxelGrid& grid) {
-  Corners numbers(mesh, grid);
-  for (const int voxel : voxels) {
-    const Triple cell = grid.cell(voxel);
-    numbers.go_to(cell[2]);
-    for (const Triple& corner : hexahedron_corners) mesh.blocks[0].nodes.push_back(numbers.number(cell + corner));
-  }
-}
-
-// The same points as from hexahedra: a sphere is in the sets of its voxel's corners.
-void add_spheres(io::Mesh& mesh, const std::vector<int>& voxels, const VoxelGrid& grid) {
-  for (const int voxel : voxels) {
-    const int number = static_cast<int>(mesh.nodes.size());
-    const Triple cell = grid.cell(voxel);
-    mesh.nodes.emplace_back((cell.cast<double>() + 0.5) * grid.spacing().array());
-    mesh.blocks[0].nodes.push_back(number);
-    mesh.blocks[0].volumes.push_back(grid.spacing().prod());
-    add_to_sets(mesh, number, cell, grid.cells - 1);
-  }
-}
-
 }  // namespace
 
 VoxelGrid grid_of(const Vector& size, double spacing, int factor) {
@@ -87,10 +66,10 @@ VoxelGrid grid_of(const Vector& size, double spacing, int factor) {
   return grid;
 }
 
-io::Mesh empty_mesh(const std::string& type) {
+io::Mesh empty_mesh() {
   io::Mesh mesh;
   for (const Face& face : faces) mesh.node_sets.push_back({face.name, {}});
-  mesh.blocks.push_back({"", type, {}, {}, {}});
+  mesh.blocks.push_back({"", "HEX8", {}, {}, {}});
   return mesh;
 }
 
@@ -101,10 +80,14 @@ void add_to_sets(io::Mesh& mesh, int number, const Triple& at, const Triple& las
   }
 }
 
-io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid, Body::Elements elements) {
-  const bool spheres = elements == Body::Elements::spheres;
-  io::Mesh mesh = empty_mesh(spheres ? "SPHERE" : "HEX8");
-  spheres ? add_spheres(mesh, voxels, grid) : add_hexahedra(mesh, voxels, grid);
+io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid) {
+  io::Mesh mesh = empty_mesh();
+  Corners numbers(mesh, grid);
+  for (const int voxel : voxels) {
+    const Triple cell = grid.cell(voxel);
+    numbers.go_to(cell[2]);
+    for (const Triple& corner : hexahedron_corners) mesh.blocks[0].nodes.push_back(numbers.number(cell + corner));
+  }
   return mesh;
 }
 

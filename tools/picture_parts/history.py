@@ -1,26 +1,9 @@
 """Plots of histories (CSV) in time."""
-import csv
-import os
-
 import matplotlib.pyplot as plt
 import numpy as np
-from strut_tools import fail, rows_of, save_picture
+from strut_tools import fail, history, save_picture
 
 from .result import clock_of, stem, title
-
-
-def history(path):
-    """Columns by name."""
-    if not os.path.isfile(path):
-        fail(f"{path} does not exist")
-    try:
-        rows = rows_of(path)
-        table = {name: np.array([float(row[name]) for row in rows]) for name in (rows[0] if rows else {})}
-    except (UnicodeDecodeError, ValueError, TypeError, csv.Error) as error:
-        fail(f"{path} is not a history: {error}")
-    if "Time" not in table:
-        fail(f"{path} is not a history: it has no column Time, or no rows")
-    return table
 
 
 def draw(axes, table, name, label, clock):

@@ -2,8 +2,9 @@
 import difflib
 import os
 
-import classic_netcdf
+import exodus
 import numpy as np
+from exodus import names_in
 from strut_tools import fail
 
 UNITS = {"Displacement": "m", "Velocity": "m/s", "Stress": "Pa", "Energy": "J", "Work": "J", "Distance": "m"}
@@ -49,17 +50,13 @@ class Result:
         self.path, self.file = path, opened(path)
         self.times = np.array(self.file.variables["time_whole"][:])
         self.reference = np.stack([self.file.variables["coord" + c][:] for c in "xyz"], axis=1)
-        self.nodal, self.elemental = self._names("name_nod_var"), self._names("name_elem_var")
+        self.nodal, self.elemental = names_in(self.file, "name_nod_var"), names_in(self.file, "name_elem_var")
         self.names = without_components(self.nodal + self.elemental)
         self.blocks = [self._block(i + 1, name) for i, name in enumerate(self._block_names())]
 
-    def _names(self, variable):
-        rows = self.file.variables[variable][:] if variable in self.file.variables else []
-        return [row.tobytes().decode(errors="replace").split("\0")[0].strip() for row in rows]
-
     def _block_names(self):
         count = len(self.file.dimensions["num_el_blk"])
-        names = self._names("eb_names") or [""] * count
+        names = names_in(self.file, "eb_names") or [""] * count
         return [name or f"block_{i + 1}" for i, name in enumerate(names)]
 
     def _block(self, number, name):
@@ -102,7 +99,7 @@ class Result:
 
 
 def opened(path):
-    file = classic_netcdf.opened(path)
+    file = exodus.opened(path)
     if "num_nodes" not in file.dimensions or len(file.variables.get("time_whole", [])) == 0:
         fail(f"{path} is not a result: it has no nodes or no frames")
     times = file.variables["time_whole"][:]

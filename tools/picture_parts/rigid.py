@@ -4,12 +4,11 @@ import itertools
 import numpy as np
 from decks import Deck, value_at, value_in
 from scipy.integrate import cumulative_trapezoid
-from strut_tools import fail
+from strut_tools import fail, history
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter, vtkTubeFilter
 from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkLineSource
 
-from . import history
 from .surface import places_of
 
 ARC = 48       # sides of a cylinder
@@ -46,7 +45,7 @@ class Tool:
 
     def _flight(self):
         """Of a tool with a mass, from the forces on it in the deck's history: times, and the way along each axis."""
-        table = history.history(self.deck.get("History", "Filename", default="a History, which this tool needs,"))
+        table = history(self.deck.get("History", "Filename", default="a History, which this tool needs,"))
         times = table["Time"]
         return times, [self._way(c, times, table) for c in "XYZ"]
 

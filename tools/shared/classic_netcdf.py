@@ -1,9 +1,6 @@
-"""Opens Exodus files only if they are complete: netCDF reads missing data of a truncated classic netCDF file as zeros.
-The header gives the length of the file (as in src/io/netcdf/classic_netcdf.cpp)."""
+"""The length of a classic netCDF file by its header (as in src/io/netcdf/classic_netcdf.cpp)."""
 import os
 import struct
-
-from strut_tools import fail
 
 SIZES = {1: 1, 2: 1, 3: 2, 4: 4, 5: 4, 6: 8, 7: 1, 8: 2, 9: 4, 10: 8, 11: 8}  # bytes of a number, by type
 STREAMING = 0xffffffff  # number of records if the writer could not seek
@@ -71,20 +68,3 @@ def problem(path):
             return "its header is cut off or damaged"
     size = os.path.getsize(path)
     return None if size >= promised else f"it is cut off: {size} of {promised} bytes are there"
-
-
-def opened(path):
-    """The file opened by netCDF4, without masks."""
-    import netCDF4
-
-    if not os.path.isfile(path):
-        fail(f"{path} does not exist")
-    try:
-        wrong = problem(path)
-        if wrong is None:
-            file = netCDF4.Dataset(path)
-            file.set_auto_mask(False)
-            return file
-    except OSError as error:
-        fail(f"{path} is not an Exodus file: {error}")
-    fail(f"{path} is damaged: {wrong}")

@@ -1,11 +1,12 @@
-"""A deck (XML) and a mesh's recipe, read and changed key by key as text: comments and form stay as they are."""
+"""A deck (XML) and a mesh's recipe, read and changed key by key."""
+import functools
 import math
 import os
 import re
+import subprocess
 import xml.etree.ElementTree as tree
 
-from expressions import NoExpression, evaluated
-from strut_tools import fail, nearest
+from strut_tools import fail, nearest, program
 
 NUMBER = r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,2})?\s*"
 
@@ -53,19 +54,6 @@ class Deck:
         recipe = mesh and os.path.splitext(mesh)[0] + ".recipe"
         return recipe if recipe and os.path.isfile(recipe) else None
 
-    def changed(self, path, value):
-        """The text of the deck with another value of the key "Section > … > Key"."""
-        element = self.key(path)
-        marked = f"\0{value}\0"
-        before, number = element.get("value"), self.number_of(element)
-        pattern = re.compile(r"<Parameter\b[^>]*?>", re.S)
-        found = [m for m in pattern.finditer(without_comments(self.text))][number]
-        old = self.text[found.start():found.end()]
-        new = re.sub(r'value\s*=\s*("[^"]*"|\'[^\']*\')', lambda m: f'value="{marked}"', old)
-        if marked not in new or before is None:
-            fail(f"{self.path}: {path} has no value to change")
-        return self.text[:found.start()] + new.replace("\0", "") + self.text[found.end():]
-
     @classmethod
     def of(cls, path, text):
         """Of a text, as if it stood there."""
@@ -74,11 +62,11 @@ class Deck:
         return deck
 
     def with_value(self, path, value):
-        """The same, as a deck."""
-        return Deck.of(self.path, self.changed(path, value))
-
-    def number_of(self, element):
-        return [e for e in self.root.iter("Parameter")].index(element)
+        """The same, with another value of the key "Section > … > Key"."""
+        deck = Deck.of(self.path, self.text)
+        deck.key(path).set("value", value)
+        deck.text = tree.tostring(deck.root, "unicode")
+        return deck
 
     def key(self, path):
         """The element of "Section > … > Key"; ends the tool with the nearest name where it is not there."""
@@ -96,6 +84,17 @@ class Deck:
         return place
 
 
+def section(name, content):
+    """An element: {key: value, or the content of a section}."""
+    found = tree.Element("ParameterList", name=name)
+    for key, value in content.items():
+        if isinstance(value, dict):
+            found.append(section(key, value))
+        else:
+            tree.SubElement(found, "Parameter", name=key, type="string", value=str(value))
+    return found
+
+
 def value_in(element, key):
     return next((e.get("value") for e in element.findall("Parameter") if e.get("name") == key), None)
 
@@ -103,11 +102,6 @@ def value_in(element, key):
 def is_true(value):
     """As the program reads it (src/deck/numbers.cpp)."""
     return value is not None and value.strip().lower() in ("true", "yes", "1")
-
-
-def without_comments(text):
-    """Blanks in their place, so that all stays where it is."""
-    return re.sub(r"<!--.*?-->", lambda m: " " * len(m.group()), text, flags=re.S)
 
 
 # Recipes
@@ -170,7 +164,34 @@ class Recipe:
         return next((keys for keys in bodies if keys.get("name", "body") == name), None)
 
 
-# Expressions
+# Expressions: the language of decks (inputs/KEYS.md), as the program reads it: strut-evaluate is asked
+
+
+class NoExpression(Exception):
+    """Where and what is wrong, for a user."""
+
+
+@functools.cache
+def asked():
+    """STRUT_EVALUATE, or the program that belongs to this tool; it runs until the tool ends."""
+    name = program("strut-evaluate")
+    try:
+        return subprocess.Popen([name], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    except OSError as error:
+        fail(f"{name} cannot be started: {error.strerror}")
+
+
+def evaluated(text, names):
+    """The number that an expression of these {name: number} is, nan and infinite among them; throws NoExpression."""
+    for name in set(names) - set("xyzt"):  # which the language does not know
+        text = re.sub(rf"(?<![\w.]){re.escape(name)}(?!\w|\s*\()", f"({float(names[name])!r})", text)
+    program, place = asked(), " ".join(repr(float(names.get(c, math.nan))) for c in "xyzt")
+    program.stdin.write(f"{place} {' '.join(text.split())}\n")
+    program.stdin.flush()
+    answer = program.stdout.readline().strip()
+    if answer.startswith("error") or not answer:
+        raise NoExpression(answer[len("error "):] or "the program that reads expressions has ended")
+    return float(answer)
 
 
 def value_at(expression, t):

@@ -1,8 +1,10 @@
-"""Shared by the Python tools: install missing packages, end with one line, pass a mesh to strut-mesh, fill pages."""
+"""Shared by the Python tools: install missing packages, end with one line, run programs, fill pages."""
 import argparse
 import contextlib
 import csv
 import difflib
+import functools
+import math
 import os
 import re
 import resource
@@ -50,26 +52,29 @@ def nearest(word, words):
 def number(word):
     try:
         return float(word)
-    except ValueError:
+    except (TypeError, ValueError):
         return None
 
 
 class Parser(argparse.ArgumentParser):
     """argparse with one-line errors and the nearest option. An option takes as many numbers as follow it, or none if
-    that is one of its counts: a file's name may follow them, and they may be negative."""
+    that is one of its counts: a file's name may follow them, and they may be negative. They are finite, and `above` a number or
+    `within` two."""
 
     def __init__(self, **words):
         super().__init__(allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, **words)
         self.counts = {}
 
-    def add_numbers(self, option, *counts, kind=float, **words):
+    def add_numbers(self, option, *counts, kind=float, above=-math.inf, within=(-math.inf, math.inf), **words):
         self.counts[option] = counts
+        wanted = f"{' or '.join(map(str, counts)).replace('0', 'no')} {'whole ' if kind is int else ''}number{'s' * (counts != (1,))}"
+        wanted += f" > {above}" if above > -math.inf else f" from {within[0]} to {within[1]}" if within[0] > -math.inf else ""
 
         def numbers(text):
             found = [number(word) for word in text.split(",") if text]
-            if len(found) not in counts or any(x is None or x != x or x != kind(x) for x in found):
-                wanted = f"{' or '.join(map(str, counts)).replace('0', 'no')} {'whole ' if kind is int else ''}number"
-                raise argparse.ArgumentTypeError(f"expected {wanted}{'s' if counts != (1,) else ''}, found '{text}'")
+            if len(found) not in counts or not all(x is not None and math.isfinite(x) and x == kind(x) and x > above and
+                                                   within[0] <= x <= within[1] for x in found):
+                raise argparse.ArgumentTypeError(f"expected {wanted}, found '{text}'")
             return [kind(x) for x in found] if counts != (1,) else kind(found[0])
 
         self.add_argument(option, type=numbers, **words)
@@ -141,6 +146,14 @@ def own_file(folder, name, *read, is_ours=None):
     if os.path.islink(path) or (os.path.isfile(path) and os.stat(path).st_nlink > 1):
         os.unlink(path)
     return path
+
+
+def write_table(path, header, rows):
+    """A CSV; of numbers nine digits, nothing for None."""
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(header)
+        writer.writerows([f"{value:.9g}" if isinstance(value, float) else value for value in row] for row in rows)
 
 
 def begins(path, text):
@@ -223,69 +236,32 @@ def captured():
             said.text = file.read().decode(errors="replace")
 
 
-# A mesh, to the program that writes Exodus
+# Programs, and what they write
 
 
-def programs(*names):
-    """Paths of programs such as strut: of this source tree, built if they are stale, or of an installed tree."""
+@functools.cache
+def program(name):
+    """The path of strut, strut-mesh, …: what STRUT, STRUT_MESH, … names, or that of this source tree, built if it is stale, or of
+    an installed tree."""
+    if path := os.environ.get(name.upper().replace("-", "_")):
+        return path
     prepare = os.path.join(ROOT, "tools", "prepare")
     if not os.path.exists(prepare):
-        return [os.path.join(ROOT, "..", "..", "bin", name) for name in names]
-    if subprocess.run([prepare, "release", "--target", *names]).returncode != 0:
-        fail(f"{' and '.join(names)} could not be built")
-    folders = {"strut": "."}
-    return [os.path.join(ROOT, "build", "release", folders.get(name, "tools"), name) for name in names]
+        return os.path.join(ROOT, "..", "..", "bin", name)
+    if subprocess.run([prepare, "release", "--target", name]).returncode != 0:
+        fail(f"{name} could not be built")
+    return os.path.join(ROOT, "build", "release", "." if name == "strut" else "tools", name)
 
 
-def mesh_program():
-    """STRUT_MESH, or the program that belongs to this tool."""
-    return os.environ.get("STRUT_MESH") or programs("strut-mesh")[0]
+@functools.cache
+def is_open_mpi(program="mpirun"):
+    found = subprocess.run([program, "--version"], capture_output=True, text=True).stdout
+    return "Open MPI" in found or "OpenRTE" in found
 
 
-def parts_of(nodes, blocks, sets):
-    """The stream that strut-mesh --arrays reads (tools/README.md), in parts."""
-    yield f"strut-mesh arrays 1\nnodes {len(nodes)}\n".encode()
-    yield nodes, "<f8"
-    for name, kind, elements, volumes in blocks:
-        yield f"block {name} {kind} {len(elements)} {elements.shape[1]}\n".encode()
-        yield elements, "<i4"
-        if volumes is not None:
-            yield volumes, "<f8"
-    for name, members in sets.items():
-        yield f"set {name} {len(members)}\n".encode()
-        yield members, "<i4"
-    yield b"end\n"
-
-
-def write_mesh(path, nodes, blocks, sets):
-    """nodes: N x 3, in m; blocks: (name, HEX8|TET4|SPHERE, elements x nodes, volumes or None); sets: {name: nodes}."""
-    write_stream(path, parts_of(nodes, blocks, sets))
-
-
-def write_stream(path, parts):
-    """parts: bytes, or (array, type)."""
-    import numpy as np
-
-    program = mesh_program()
-    try:
-        run = subprocess.Popen([program, "--arrays", path], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE)
-    except OSError as error:
-        fail(f"{program} cannot be started: {error.strerror}")
-    try:
-        for part in parts:
-            if isinstance(part, tuple):
-                part = np.ascontiguousarray(part[0], part[1]).reshape(-1).view(np.uint8)
-            run.stdin.write(part)
-    except BrokenPipeError:
-        pass  # the program reports the reason, below
-    out, errors = run.communicate()
-    if run.returncode < 0:
-        fail(f"strut-mesh was ended by signal {-run.returncode}")
-    if run.returncode != 0:
-        said = errors.decode(errors="replace").strip().splitlines() or [f"exit status {run.returncode}"]
-        fail(said[0] if said[0].startswith("strut-mesh") else f"strut-mesh: {said[0]}")
-    print(out.decode(), end="")
+def mpirun(ranks):
+    """The command that starts this many ranks; Open MPI's mpirun needs options for runs that share cores."""
+    return ["mpirun", *(["--oversubscribe", "--bind-to", "none"] if is_open_mpi() else []), "-np", str(ranks)]
 
 
 def run_deck(deck, folder, ranks=None, limit=None):
@@ -301,24 +277,37 @@ def run_deck(deck, folder, ranks=None, limit=None):
         return output.read()
 
 
-def rows_of(path):
-    """The rows of a history, as text by column; lines that begin with # give the writer and the units. Ends the tool if
-    a row is incomplete, because a truncated number has another value."""
-    with open(path, newline="") as history:
-        lines = history.readlines()
-    if lines and not lines[-1].endswith("\n"):
-        fail(f"{path} is cut off in line {len(lines)}, '{lines[-1][-30:]}' (or a run is about to write it: try again)")
-    numbers = [number for number, line in enumerate(lines, 1) if not line.startswith("#")]
-    header, *rows = csv.reader(lines[number - 1] for number in numbers) if numbers else [[]]
-    for number, row in zip(numbers[1:], rows):
-        if len(row) != len(header):
-            fail(f"{path} is damaged: line {number} has {len(row)} values, expected {len(header)} as in its head")
-    return [dict(zip(header, row)) for row in rows]
+def history(path, growing=False):
+    """The columns of a history by name; lines that begin with # give the writer and the units. Ends the tool if it is damaged, or
+    cut off, because a truncated number has another value; `growing`: a run may be writing its last line, which is left out."""
+    import numpy as np
+
+    if not os.path.isfile(path):
+        fail(f"{path} does not exist")
+    try:
+        with open(path, newline="") as file:
+            *lines, last = file.read().split("\n")
+        if last and not growing:
+            fail(f"{path} is cut off in line {len(lines) + 1}, '{last[-30:]}' (or a run is about to write it: try again)")
+        numbers = [number for number, line in enumerate(lines, 1) if not line.startswith("#")]
+        header, *rows = csv.reader(lines[number - 1] for number in numbers) if numbers else [[]]
+        for number, row in zip(numbers[1:], rows):
+            if len(row) != len(header):
+                fail(f"{path} is damaged: line {number} has {len(row)} values, expected {len(header)} as in its head")
+        table = np.array(rows, float)
+    except (UnicodeDecodeError, ValueError, csv.Error) as error:
+        fail(f"{path} is not a history: {error}")
+    if "Time" not in header or not rows:
+        fail(f"{path} is not a history: it has no column Time, or no rows")
+    if twice := [name for name in header if header.count(name) > 1]:
+        fail(f"{path} has two columns '{twice[0]}', expected each once")
+    return dict(zip(header, table.T))
 
 
 def history_of(path):
-    """The same rows as numbers."""
-    return [{key: float(value) for key, value in row.items()} for row in rows_of(path)]
+    """The rows of a history, as numbers by column."""
+    table = history(path)
+    return [dict(zip(table, map(float, row))) for row in zip(*table.values())]
 
 
 def with_core_seconds(run):
@@ -354,18 +343,3 @@ def run_parts(page, parts):
 def percent(value, known, digits=1):
     """The signed relative error of a value."""
     return f"{100 * (value / known - 1):+.{digits}f} %"
-
-
-def names_in(file, variable):
-    """The names that an Exodus file, opened by netCDF4, lists under `variable`."""
-    from numpy import ma
-
-    return [ma.filled(row, b"\0").tobytes().split(b"\0")[0].decode() for row in file[variable][:]]
-
-
-def field_in(file, name):
-    """A field of a result, frame by frame: of its nodes, or of the elements of its first block."""
-    nodal = names_in(file, "name_nod_var")
-    if name in nodal:
-        return file[f"vals_nod_var{nodal.index(name) + 1}"]
-    return file[f"vals_elem_var{names_in(file, 'name_elem_var').index(name) + 1}eb1"]

@@ -1,7 +1,7 @@
 """The box of a sample, and the points of its faces: only the outermost layer."""
-import classic_netcdf
 import numpy as np
 from curve_parts import extent
+from exodus import opened
 from strut_tools import fail
 
 FACES = [f"{axis}{side}" for axis in "xyz" for side in ("min", "max")]
@@ -12,7 +12,7 @@ class Sample:
     filled cells count as prisms, and the box ends where the material does: whole cells may extend beyond it."""
 
     def __init__(self, mesh):
-        file = classic_netcdf.opened(mesh)
+        file = opened(mesh)
         try:
             blocks = [name[len("connect"):] for name in file.variables if name.startswith("connect")]
             parts = [extent.cells_of(file, number) for number in blocks]

@@ -2,20 +2,13 @@
 import xml.etree.ElementTree as tree
 
 import numpy as np
-from decks import Deck
+from decks import Deck, section
 
 from .faces import FACES
 
 ORDER = ("xx", "yy", "zz", "yz", "zx", "xy")
 PAIRS = ((0, 0), (1, 1), (2, 2), (1, 2), (2, 0), (0, 1))
 KEPT = ("Discretization", "Node Sets", "Materials", "Blocks")
-HELD = """<ParameterList name="{name}">
-  <Parameter name="Type" type="string" value="Prescribed Displacement"/>
-  <Parameter name="Node Set" type="string" value="{face}"/>
-  <Parameter name="Coordinate" type="string" value="{axis}"/>
-  <Parameter name="Value" type="string" value="{value}"/>
-</ParameterList>
-"""
 
 
 def strain_tensor(case):
@@ -34,7 +27,7 @@ def displacement(cases, axis, strain, center):
         row = strain * strain_tensor(case)[axis]
         linear = " + ".join(f"{row[b]:.17g}*({'xyz'[b]} - {center[b]:.17g})" for b in range(3) if row[b])
         if linear:
-            terms.append(f"(t &gt; {n - 0.5})*(t &lt; {n + 0.5})*({linear})")
+            terms.append(f"(t > {n - 0.5})*(t < {n + 0.5})*({linear})")
     return " + ".join(terms) or "0"
 
 
@@ -53,45 +46,24 @@ def held(kind, cases, face):
 def deck_of(deck, kind, cases, center, strain, sets):
     """The deck of some cases as successive load steps. `sets`: {face: its points, by number or expression}."""
     root = tree.Element("ParameterList")
-    parts = [tree.tostring(deck.section(name), "unicode") for name in KEPT if deck.section(name) is not None]
-    text = tree.tostring(root, "unicode").replace(" />", ">") + "\n" + "\n".join(parts)
-    by_place = {face: points for face, points in sets.items() if not points[0].isdigit()}
-    if by_place and deck.section("Node Sets") is None:
-        text += f'\n<ParameterList name="Node Sets">\n{set_lines(by_place)}</ParameterList>\n'
-    elif by_place:
-        at = text.index('<ParameterList name="Node Sets">') + len('<ParameterList name="Node Sets">')
-        text = text[:at] + "\n" + set_lines(by_place) + text[at:]
-    by_number = set_lines({face: points for face, points in sets.items() if face not in by_place})
-    conditions = "".join(HELD.format(name=f"{face} {'xyz'[a]}", face=box_set(face), axis="xyz"[a],
-                                            value=displacement(cases, a, strain, center))
-                         for face in FACES for a in held(kind, cases, face))
-    text += f"""<ParameterList name="Boundary Conditions">
-{by_number}{conditions}</ParameterList>
-<ParameterList name="Solver">
-  <Parameter name="Final Time" type="double" value="{len(cases)}"/>
-  <ParameterList name="QuasiStatic">
-    <Parameter name="Number of Load Steps" type="int" value="{len(cases)}"/>
-    <Parameter name="Tolerance" type="double" value="1e-5"/>
-  </ParameterList>
-</ParameterList>
-<ParameterList name="Output">
-  <Parameter name="Output Filename" type="string" value="sample.e"/>
-  <Parameter name="Output Interval" type="double" value="1"/>
-  <ParameterList name="Output Variables"><Parameter name="Displacement" type="bool" value="true"/></ParameterList>
-</ParameterList>
-<ParameterList name="History">
-  <Parameter name="Filename" type="string" value="sample.csv"/>
-  <Parameter name="Frequency" type="int" value="1"/>
-  <ParameterList name="Variables">
-{"".join(f'    <Parameter name="Mean_Cauchy_Stress_{c.upper()}" type="bool" value="true"/>{chr(10)}' for c in ORDER)}  </ParameterList>
-</ParameterList>
-</ParameterList>
-"""
-    return Deck.of(deck.path, text)
-
-
-def set_lines(sets):
-    return "".join(f'<Parameter name="{box_set(face)}" type="string" value="{points}"/>\n' for face, points in sets.items())
+    root.extend(deck.section(name) for name in KEPT if deck.section(name) is not None)
+    found = Deck.of(deck.path, tree.tostring(root, "unicode"))
+    points = {box_set(face): text for face, text in sets.items()}
+    by_place = {name: text for name, text in points.items() if not text[0].isdigit()}
+    if by_place and found.section("Node Sets") is None:
+        found.root.append(section("Node Sets", {}))
+    if by_place:
+        found.section("Node Sets").extend(section("", by_place))
+    held_faces = {f"{face} {'xyz'[a]}": {"Type": "Prescribed Displacement", "Node Set": box_set(face), "Coordinate": "xyz"[a],
+                                         "Value": displacement(cases, a, strain, center)}
+                  for face in FACES for a in held(kind, cases, face)}
+    found.root.extend(section("", {
+        "Boundary Conditions": {**{name: text for name, text in points.items() if name not in by_place}, **held_faces},
+        "Solver": {"Final Time": len(cases), "QuasiStatic": {"Number of Load Steps": len(cases), "Tolerance": 1e-5}},
+        "Output": {"Output Filename": "sample.e", "Output Interval": 1, "Output Variables": {"Displacement": "true"}},
+        "History": {"Filename": "sample.csv", "Frequency": 1,
+                    "Variables": {f"Mean_Cauchy_Stress_{c.upper()}": "true" for c in ORDER}}}))
+    return Deck.of(deck.path, tree.tostring(found.root, "unicode"))
 
 
 def box_set(face):
@@ -102,8 +74,8 @@ def expression(face, low, high, depth):
     """An expression of the points at most this deep below a face."""
     axis = "xyz".index(face[0])
     if face.endswith("min"):
-        return f"{face[0]} &lt; {low[axis] + depth:.17g}"
-    return f"{face[0]} &gt; {high[axis] - depth:.17g}"
+        return f"{face[0]} < {low[axis] + depth:.17g}"
+    return f"{face[0]} > {high[axis] - depth:.17g}"
 
 
 # The runs: one for kinematic conditions, because all cases hold the same points; for mixed ones axial cases together.

@@ -1,11 +1,10 @@
 """Tables and the picture of a stiffness."""
-import csv
-
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from strut_tools import write_table
 
 from . import tensors
 from .loads import ORDER
@@ -27,11 +26,8 @@ def text_of(kind, C, energy):
 
 
 def write(path, found):
-    with open(path, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["Boundaries", "Row", *[f"{c} (Pa)" for c in ORDER]])
-        for kind, (C, _) in found.items():
-            writer.writerows([kind, c, *[f"{x:.9g}" for x in row]] for c, row in zip(ORDER, C))
+    write_table(path, ["Boundaries", "Row", *[f"{c} (Pa)" for c in ORDER]],
+                [[kind, c, *row] for kind, (C, _) in found.items() for c, row in zip(ORDER, C)])
 
 
 def figure(path, title, found):

@@ -11,8 +11,7 @@ import subprocess
 import tempfile
 import time
 
-from launcher import is_open_mpi, mpirun
-from strut_tools import fail, own_file, programs
+from strut_tools import fail, is_open_mpi, mpirun, own_file, program
 
 from . import inputs
 
@@ -73,34 +72,34 @@ class Case:
         self.put_state(over=False)
         return False
 
-    def start(self, programs, ranks):
+    def start(self, ranks):
         goes_on = self.prepare()
         with open(self.log, "a") as log:
-            if not goes_on and not self.make_mesh(programs, log):
+            if not goes_on and not self.make_mesh(log):
                 return self.put_state(over=True, error=last_line(self.log), seconds=0)
             self.started = time.monotonic()
             # A process group of its own: only this program passes on a Ctrl-C from the terminal.
-            self.process = subprocess.Popen(self.command(programs, ranks, *(["--continue"] if goes_on else [])), cwd=self.folder,
+            self.process = subprocess.Popen(self.command(ranks, *(["--continue"] if goes_on else [])), cwd=self.folder,
                                             stdout=log, stderr=log, env=environment(), start_new_session=True)
         return None
 
-    def make_mesh(self, programs, log):
+    def make_mesh(self, log):
         """True if it succeeded."""
-        return not self.recipe or subprocess.run([programs.mesh, self.recipe, self.mesh], cwd=self.folder, stdout=log,
+        return not self.recipe or subprocess.run([program("strut-mesh"), self.recipe, self.mesh], cwd=self.folder, stdout=log,
                                                  stderr=log).returncode == 0
 
-    def command(self, programs, ranks, *options):
-        return [*(mpirun(ranks) if ranks > 1 else []), programs.strut, *options, self.deck]
+    def command(self, ranks, *options):
+        return [*(mpirun(ranks) if ranks > 1 else []), program("strut"), *options, self.deck]
 
-    def check(self, programs, ranks):
+    def check(self, ranks):
         """The output of strut --check, in a temporary folder."""
         with tempfile.TemporaryDirectory() as folder:
             trial = copy.copy(self)
             trial.folder = os.path.join(folder, "trial")
             trial.prepare()
             with open(trial.log, "a+") as log:
-                if trial.make_mesh(programs, log):
-                    subprocess.run(trial.command(programs, ranks, "--check"), cwd=trial.folder, stdout=log, stderr=log,
+                if trial.make_mesh(log):
+                    subprocess.run(trial.command(ranks, "--check"), cwd=trial.folder, stdout=log, stderr=log,
                                    env=environment())
                 log.seek(0)
                 return log.read()
@@ -170,18 +169,8 @@ def last_line(path):
     return (own or lines or ["it said nothing"])[-1]  # MPI's messages come after it
 
 
-class Programs:
-    """The programs STRUT and STRUT_MESH, or those that belong to this tool."""
-
-    def __init__(self):
-        self.strut, self.mesh = os.environ.get("STRUT"), os.environ.get("STRUT_MESH")
-        if not (self.strut and self.mesh):
-            self.strut, self.mesh = programs("strut", "strut-mesh")
-
-
 def run_all(cases, jobs, ranks, tell):
     """Runs several at a time. Returns True if all have ended, False if a signal has stopped them."""
-    programs = Programs()
     waiting, running, stopped = [c for c in cases if not c.done()], [], []
 
     def stop(*_):
@@ -194,7 +183,7 @@ def run_all(cases, jobs, ranks, tell):
     while (waiting and not stopped) or running:
         while waiting and len(running) < jobs and not stopped:
             case = waiting.pop(0)
-            case.start(programs, ranks)
+            case.start(ranks)
             running.append(case)
             if stopped and case.process is not None:  # while its mesh was made
                 case.stop(ranks)

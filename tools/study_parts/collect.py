@@ -11,7 +11,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from decks import Deck, value_of
-from strut_tools import ROOT, fail, history_of, nearest
+from strut_tools import ROOT, fail, history_of, nearest, number, write_table
 
 FACTS = {"points": r"^([\d,]+) points,", "steps": r"^(\d+) (?:load )?steps,", "seconds": r"^whole run +([\d.]+)",
          "balance_error": r"balance error ([\d.e+-]+)"}
@@ -72,15 +72,7 @@ def rows_of(study, cases):
 
 def write(path, rows, units):
     names = list(dict.fromkeys(name for row in rows for name in row if name != "error")) + ["error"]
-    with open(path, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([f"{n} ({units[n]})" if n in units else n for n in names])
-        for row in rows:
-            writer.writerow([shown(row.get(n)) for n in names])
-
-
-def shown(value):
-    return "" if value is None else f"{value:.9g}" if isinstance(value, float) else value
+    write_table(path, [f"{n} ({units[n]})" if n in units else n for n in names], [[row.get(n) for n in names] for row in rows])
 
 
 def table(rows, plots, study):
@@ -92,13 +84,6 @@ def table(rows, plots, study):
         cells = [f"{row[n]:.4g}" if isinstance(row.get(n), float) else str(row.get(n) if row.get(n) is not None else "-") for n in names]
         lines.append(" | ".join(cells) + (f"   {row['error']}" if row["error"] else ""))
     return "\n".join(f"| {line} |" for line in lines)
-
-
-def number(value):
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        return None
 
 
 def figure(path, study, rows, units):

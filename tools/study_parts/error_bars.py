@@ -1,5 +1,4 @@
 """The measures of a study over its grids: order, limit and error bar of each, as a table (CSV) and as text."""
-import csv
 import math
 
 from . import collect, convergence
@@ -31,13 +30,6 @@ def row_of_measure(name, kind, measure, values, unit, theory):
 def spread(values):
     """The spread of the values on the grids, in % of the finest grid's."""
     return 100 * (max(values) - min(values)) / abs(values[0]) if len(values) > 1 and values[0] != 0 else None
-
-
-def write(path, rows):
-    with open(path, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(rows[0])
-        writer.writerows([collect.shown(value) for value in row.values()] for row in rows)
 
 
 def text(name, kinds, rows, theory):

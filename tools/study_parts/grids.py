@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from curve_parts import source
 from decks import Deck
-from strut_tools import fail, nearest
+from strut_tools import fail, nearest, number
 
 from . import collect, names, plan
 from .cases import duration
@@ -102,7 +102,7 @@ def sizes_of(study, name, cases):
     recipes = [plan.files_of(study, case.values)[1] for case in cases]
     sizes = [spacing_of(recipe) for recipe in recipes]
     if len(set(map(asked_of, recipes))) == 1 or None in sizes:
-        sizes = [collect.number(case.values[name]) for case in cases]
+        sizes = [number(case.values[name]) for case in cases]
     for size, case in zip(sizes, cases):
         if size is None or not 0 < size < math.inf:
             fail(f"{study.path}: {name} = {case.values[name]}: expected a length > 0")
@@ -159,14 +159,14 @@ class Cost:
         return [value and value * finer**power for value, power in powers]
 
 
-def cost_of(kind, programs, ranks):
+def cost_of(kind, ranks):
     """The cost of the finest completed run, else of the coarsest by strut --check."""
     for size, case in zip(kind.sizes, kind.cases):
         state = case.state()
         if state.get("over") and not state.get("error") and state.get("seconds"):
             facts = collect.facts_of(case)
             return Cost(size, facts.get("points"), facts.get("steps"), state["seconds"], f"{plan.name_of(case.values)}, which is done")
-    said = kind.cases[-1].check(programs, ranks)
+    said = kind.cases[-1].check(ranks)
     points = re.search(r"^([\d,]+) points,", said, re.M)
     steps = re.search(r"about (\S+) steps of|^(\S+) load steps", said, re.M)
     time = re.search(r"^estimated time .*?(?:to|more than) ([^(\n]+)", said, re.M)
@@ -178,13 +178,13 @@ def cost_of(kind, programs, ranks):
                 "strut --check of the coarsest grid (its longer time)")
 
 
-def plan_of(name, kinds, programs, ranks):
+def plan_of(name, kinds, ranks):
     """The planned runs and their cost, for reading; sets the cost fraction of each run, for the progress."""
     lines = [f"| run | {name} as meshed | cells | steps | time |", "|---|---|---|---|---|"]
     left, bases = [], []
     largest = max(size for kind in kinds for size in kind.sizes)
     for kind in kinds:
-        cost = cost_of(kind, programs, ranks)
+        cost = cost_of(kind, ranks)
         bases.append(cost.basis)
         for size, case in reversed(list(zip(kind.sizes, kind.cases))):
             case.cost = (largest / size)**4

@@ -3,7 +3,7 @@ there. No other file beside the deck belongs to it, in particular no results of 
 import os
 import re
 
-from decks import Deck, value_in
+from decks import value_in
 from strut_tools import fail
 
 WRITTEN = (("Output", "Output Filename"), ("History", "Filename"), ("Restart", "Filename"))
@@ -17,7 +17,7 @@ def of(deck, recipe):
     mesh, made = deck.get("Discretization", "Input Mesh File"), None
     if mesh and recipe is not None:
         made = name_within(mesh)
-        deck = with_value(deck, "Discretization > Input Mesh File", mesh, made)
+        deck = deck.with_value("Discretization > Input Mesh File", made)
     elif mesh:
         deck = linked(deck, "Discretization > Input Mesh File", mesh, here, links)
     conditions = deck.section("Boundary Conditions")
@@ -38,12 +38,8 @@ def leads_out(path):
     return os.path.isabs(path) or os.path.normpath(path).split(os.sep)[0] == os.pardir
 
 
-def with_value(deck, key, old, new):
-    return deck if old == new else Deck.of(deck.path, deck.changed(key, new))
-
-
 def linked(deck, key, path, here, links):
-    return with_value(deck, key, path, link(path, here, links))
+    return deck.with_value(key, link(path, here, links))
 
 
 def link(path, here, links):

@@ -2,9 +2,8 @@
 import re
 
 import numpy as np
-from curve_parts import measures, options, shock
-from decks import is_true, value_in
-from expressions import NoExpression, evaluated
+from curve_parts import measures, shock, source
+from decks import NoExpression, evaluated, is_true, value_in
 from strut_tools import Parser, fail, nearest
 
 from .collect import FACTS
@@ -72,7 +71,7 @@ def check_curve(study, columns):
         def error(self, message):
             fail(f"{study.path}, curve: {message}")
 
-    words = options.parsed(options.parser_of("", OfStudy), ["deck.xml", *study.curve.split()])
+    words = source.parser_of("", OfStudy).parse_args(["deck.xml", *study.curve.split()])
     for option, name in (("--force", words.force), ("--other", words.other)):
         if name and name not in columns:
             fail(f"{study.path}, curve: {option}: there is no column '{name}'{nearest(name, columns)}; there are {', '.join(columns)}")

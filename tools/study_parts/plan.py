@@ -43,9 +43,9 @@ def read(path, converge=None):
             lines = [line.split("#")[0].strip() for line in file]
     except (OSError, UnicodeDecodeError) as error:
         fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
-    for number, line in enumerate(lines, 1):
+    for n, line in enumerate(lines, 1):
         if line:
-            take(study, f"{path}, line {number}", *(part.strip() for part in line.partition("=")[::2]))
+            take(study, f"{path}, line {n}", *(part.strip() for part in line.partition("=")[::2]))
     if not study.deck or not (study.vary or converge):
         fail(f"{path}: expected a line 'deck = …' and at least one 'vary NAME = …'")
     for names, _ in study.vary:
@@ -110,12 +110,7 @@ def doubles(rows):
 
 def filled(text, case, where):
     """Replaces {name} by the value, {expression} by its number."""
-    numbers = {}
-    for name, value in case.items():
-        try:
-            numbers[name] = float(value)
-        except ValueError:
-            pass
+    numbers = {name: number(value) for name, value in case.items() if number(value) is not None}
 
     def one(match):
         inside = match[1].strip()

@@ -1,15 +1,15 @@
-"""Makes nodes, elements and the node sets of the box's faces from solid voxels; or passes the voxels on, for cells."""
+"""Makes nodes, elements and the node sets of the box's faces from solid voxels."""
 import numpy as np
 
 from strut_tools import fail
 
 # Corners of a voxel in the order of Exodus' HEX8, as steps (z, y, x).
 CORNERS = [(0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0), (1, 0, 0), (1, 0, 1), (1, 1, 1), (1, 1, 0)]
-MOST_NODES = 2**31 - 1  # limit of the numbers in strut-mesh's arrays
+MOST_NODES = 2**31 - 1  # limit of the numbers in a mesh
 
 
 def mesh_of(solid, cell, origin, elements, block):
-    """Nodes (m), one block, and sets, in the form of strut_tools.write_mesh."""
+    """Nodes (m), one block, and sets, in the form of exodus.write_mesh."""
     nodes, block_of, places, last = (hexahedra if elements == "hex" else spheres)(solid, cell, origin, block)
     sets = {}
     for axis, letter in ((2, "x"), (1, "y"), (0, "z")):
@@ -55,17 +55,3 @@ def hexahedra(solid, cell, origin, block):
         elements[:, i] = number[first + np.ravel_multi_index(corner, shape)] - 1
     places = np.nonzero(taken)
     return coordinates(places, cell, origin, 0), (block, "HEX8", elements, None), places, solid.shape
-
-
-def gathered(solid, cell, origin, factor, smallest, block, fills=None, thickness=None):
-    """The stream from which strut-mesh gathers voxels in cells. fills: the solid fraction of each voxel of the box;
-    thickness: of struts and walls, in voxels."""
-    places = np.nonzero(solid)
-    kind = ("solid" if fills is None else "grey") + ("" if thickness is None else f" {thickness:.6g}")
-    yield (f"strut-mesh arrays 1\nnodes 0\nvoxels {block} {len(places[0])} {' '.join(map(str, solid.shape[::-1]))} "
-           f"{factor} {smallest} {kind}\n").encode()
-    yield np.array([*cell, *origin]), "<f8"
-    yield np.stack(places[::-1], axis=1), "<i4"
-    if fills is not None:
-        yield fills[places], "<f8"
-    yield b"end\n"

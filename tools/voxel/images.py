@@ -7,17 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import byte_order
+import headers
 import nrrd
 import points
 import scanco
-import units
 from strut_tools import captured, check_input, fail, nearest
 
 VTK_READERS = {".mhd": ("vtkIOImage", "vtkMetaImageReader"), ".mha": ("vtkIOImage", "vtkMetaImageReader"),
                ".vti": ("vtkIOXML", "vtkXMLImageDataReader"), ".vtk": ("vtkIOLegacy", "vtkStructuredPointsReader")}
-NRRD = (".nrrd", ".nhdr")
 TIFF = (".tif", ".tiff")
+NUMPY = (".npy",)
 TEXT = (".pts", ".txt", ".xyz", ".dat")
 SCANCO = (".aim", ".isq")
 RAW_TYPES = {"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4", "float32": "f4",
@@ -77,17 +76,19 @@ def read(path, raw=None, array=None, unit=None):
         return Image(values, spacing, "Scanco's")
     if ending in TIFF:
         return Image(tiff(path), None, "TIFF")
-    if ending in NRRD:
+    if ending in headers.NRRD:
         return checked(path, *nrrd.read(path), ending, unit)
     if ending in VTK_READERS:
         values, image = by_vtk(path, *VTK_READERS[ending], array)
-        if ending in byte_order.META_IMAGE:
-            byte_order.check_meta_image(path, values)
+        if ending in headers.META_IMAGE:
+            headers.check_meta_image(path, values)
         return checked(path, values, image.GetSpacing(), ending, unit)
+    if ending in NUMPY:
+        return Image(numpy_array(path), None, "NumPy")
     if ending in TEXT:
         solid, spacing = points.lattice(path)
         return Image(solid, spacing, "list of points")
-    known = [*NRRD, *VTK_READERS, *TIFF, *SCANCO, *TEXT]
+    known = [*headers.NRRD, *VTK_READERS, *TIFF, *SCANCO, *NUMPY, ".stl", *TEXT]
     fail(f"{path}: '{ending}' is not a format that is known{nearest(ending, known)}; there are {' '.join(known)} "
          "(lists of points also .gz), and any file with --shape and --type")
 
@@ -96,6 +97,17 @@ def ending_of(path):
     """.pts of a.pts.gz"""
     stem, ending = os.path.splitext(path.lower())
     return os.path.splitext(stem)[1] if ending == ".gz" else ending
+
+
+def numpy_array(path):
+    """Indices are [z, y, x], as of all images here."""
+    try:
+        values = np.load(path, allow_pickle=False)
+    except (ValueError, EOFError, OSError) as error:
+        fail(f"{path} cannot be read as NumPy's: {error}")
+    if getattr(values, "ndim", 0) != 3 or 0 in values.shape:
+        fail(f"{path} is an array of the shape {getattr(values, 'shape', ())}; expected three axes: z, y, x")
+    return values.astype(np.uint8) if values.dtype == bool else values
 
 
 def sorted_naturally(names):
@@ -114,7 +126,7 @@ def bare(path, raw):
         fail(f"{path} has {found} bytes, expected {size}: {' x '.join(map(str, raw.shape))} numbers of type {raw.type}{after}{more}")
     values = np.fromfile(path, kind, offset=raw.header).reshape(raw.shape[::-1])
     values = values.astype(kind.newbyteorder("="), copy=False)
-    if raw.order is None and byte_order.sounds_swapped(values):
+    if raw.order is None and headers.sounds_swapped(values):
         fail(f"{path} reads like an image in the other order of bytes: expected --byte-order big, or little where it is so")
     return Image(values, None, f"raw {raw.type}, {order}-endian")
 
@@ -238,7 +250,7 @@ def array_of(path, image, name):
 
 
 def checked(path, values, spacing, ending, unit):
-    factor = units.factor_of(unit, "--units") if unit else units.of_file(path, ending)
+    factor = headers.factor_of(unit, "--units") if unit else headers.unit_of(path, ending)
     kind = ending[1:].upper() + (f", lengths of {factor:g} m" if factor else "")
     # VTK returns 1 if the file has no spacing; a voxel of 1 m is implausible.
     if spacing is None or tuple(abs(s) * (factor or 1) for s in spacing) == (1, 1, 1):

@@ -9,7 +9,7 @@ namespace {
 const RealKey density({.name = "Density", .unit = "kg/m³", .range = positive, .meaning = "Reference density."});
 
 using ElasticKey = OptionalKey<double>;
-const char* const two = " Exactly two of the four elastic constants.";
+const char* const two = " Exactly two of the four are given.";
 const ElasticKey bulk({.name = "Bulk Modulus", .unit = "Pa", .range = positive, .meaning = std::string("K.") + two});
 const ElasticKey shear({.name = "Shear Modulus", .unit = "Pa", .range = positive, .meaning = std::string("G.") + two});
 const ElasticKey young(

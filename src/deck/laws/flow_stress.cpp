@@ -33,10 +33,7 @@ const RealKey exponent({.name = "Exponent", .range = not_negative, .meaning = "n
 }  // namespace ludwik
 
 namespace voce {
-const RealKey saturation({.name = "Saturation Stress",
-                          .unit = "Pa",
-                          .range = not_negative,
-                          .meaning = "Q: what hardening adds in the end."});
+const RealKey saturation({.name = "Saturation Stress", .unit = "Pa", .range = not_negative, .meaning = "Q."});
 const RealKey rate({.name = "Saturation Rate", .range = not_negative, .meaning = "b."});
 }  // namespace voce
 
@@ -60,8 +57,8 @@ const std::vector<HardeningEntry>& hardenings() {
          return VoceHardening{.saturation = v[voce::saturation], .rate = v[voce::rate]};
        }},
       {{.name = table_name,
-        .meaning = "h piecewise linear, constant beyond the last strain. The first stress is the yield stress.",
-        .keys = table_keys("Equivalent plastic strains, rising, the first 0.", "As many flow stresses.", positive)},
+        .meaning = "h is piecewise linear, and constant beyond the last strain. The first stress is the yield stress.",
+        .keys = table_keys("Equivalent plastic strains, increasing, the first 0.", "Flow stress at each.", positive)},
        [](const Values& v) -> Hardening { return read_table(v); }},
   };
   return entries;
@@ -92,12 +89,11 @@ const std::vector<RateEntry>& rates() {
   return entries;
 }
 
-const OptionalKey<double> yield_stress(
-    {.name = "Yield Stress",
-     .unit = "Pa",
-     .range = positive,
-     .meaning = "σ_y: the flow stress at rest without plastic strain. Required unless Hardening is a "
-                "Table, or Flow Stress has another Type."});
+const OptionalKey<double> yield_stress({.name = "Yield Stress",
+                                        .unit = "Pa",
+                                        .range = positive,
+                                        .meaning = "σ_y, the initial static flow stress. Required unless Hardening is "
+                                                   "a Table, or Flow Stress has another Type."});
 
 const char* const hardening_name = "Hardening";
 const char* const rate_name = "Rate";
@@ -126,9 +122,8 @@ double read_yield_stress(const Values& material, const Values& hardening, Proble
 Section flow_stress_section() {
   return {.keys = {yield_stress},
           .sections = {
-              one_of(hardening_name, "The flow stress is h(ε̄) r(ε̇), with ε̄ the equivalent plastic strain. This is h.",
-                     hardenings()),
-              one_of(rate_name, "The factor r of the flow stress, with ε̇ the rate of ε̄.", rates())}};
+              one_of(hardening_name, "h of the flow stress h(ε̄) r(ε̇), ε̄ the equivalent plastic strain.", hardenings()),
+              one_of(rate_name, "r of the flow stress, ε̇ the rate of ε̄.", rates())}};
 }
 
 void refuse_flow_stress(const Values& material, const std::string& flow, Problems& problems) {

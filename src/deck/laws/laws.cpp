@@ -1,6 +1,7 @@
 #include "deck/laws/laws.hpp"
 
 #include "deck/laws/constants.hpp"
+#include "deck/laws/hyperelastic.hpp"
 #include "deck/laws/metal.hpp"
 #include "deck/laws/metal_foam.hpp"
 #include "deck/laws/polymer_foam.hpp"
@@ -13,10 +14,9 @@ namespace {
 Section elastic_ordinary() {
   return {.name = "Elastic",
           .meaning =
-              "The ordinary state-based linear elastic solid (Silling et al. 2007), as Peridigm's `Elastic`: "
-              "forces along the bonds, no deformation gradient, no stabilization, for bodies that stay elastic. "
-              "On a lattice its shear moduli depend on direction, more or less with Influence Function and "
-              "Horizon (table in docs/theory.md, Ordinary solid). No further keys."};
+              "Ordinary state-based linear elastic solid (Silling et al. 2007), as Peridigm's `Elastic`, without "
+              "stabilization. On a lattice its shear moduli depend on direction (table in docs/theory.md, Ordinary "
+              "solid)."};
 }
 
 Section elastic() { return {.name = "Elastic Correspondence", .meaning = "Isotropic and elastic (hypoelastic)."}; }
@@ -35,6 +35,7 @@ const std::vector<LawEntry>& laws() {
       {metal_section(), make_metal},
       {metal_foam_section(), make_metal_foam},
       {polymer_foam_section(), make_polymer_foam},
+      {hyperelastic_section(), make_hyperelastic},
       {user_library_section(), make_user_library},
   };
   return entries;

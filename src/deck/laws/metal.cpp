@@ -21,7 +21,7 @@ const RealKey specific_heat({.name = "Specific Heat", .unit = "J/(kg K)", .range
 const RealKey plastic_share({.name = "Taylor-Quinney Coefficient",
                              .range = {.low = 0, .high = 1},
                              .fallback = "0.9",
-                             .meaning = "β: the part of the plastic work that heats."});
+                             .meaning = "β, the fraction of plastic work that heats."});
 
 const RealKey shear_fall({.name = "Shear Modulus Slope",
                           .unit = "1/K",
@@ -32,13 +32,13 @@ const RealKey shear_reference({.name = "Shear Modulus Temperature",
                                .unit = "K",
                                .range = not_negative,
                                .fallback = "293",
-                               .meaning = "T_r, at which the elastic constants are given."});
+                               .meaning = "T_r, the temperature of the elastic constants."});
 
 const RealKey sound({.name = "Sound Speed",
                      .unit = "m/s",
                      .range = positive,
-                     .meaning = "c₀ of the Hugoniot U_s = c₀ + s u_p; the bulk modulus is ρ₀ c₀², and of the elastic "
-                                "constants the shear modulus alone counts."});
+                     .meaning = "c₀ of the Hugoniot U_s = c₀ + s u_p. The bulk modulus is ρ₀ c₀²; only the shear "
+                                "modulus of the elastic constants counts."});
 const RealKey hugoniot_slope({.name = "Hugoniot Slope", .range = not_negative, .meaning = "s."});
 const RealKey gruneisen({.name = "Gruneisen Parameter", .range = not_negative, .meaning = "Γ₀; ρ Γ is constant."});
 const RealKey exponent({.name = "Exponent", .range = positive, .meaning = "n."});
@@ -101,16 +101,15 @@ Section metal_section() {
   Section section = flow_stress_section();
   section.name = "Elastic Plastic Correspondence";
   section.meaning =
-      "J2 plasticity: hypoelastic, with the flow stress that Yield Stress, Hardening and Rate define, or Flow Stress; "
-      "hot and heated by its flow where Softening, Flow Stress or Heating say so.";
+      "Hypoelastic J2 plasticity. Yield Stress, Hardening and Rate, or Flow Stress, define the flow stress; Softening, "
+      "Flow Stress and Heating its dependence on temperature.";
   section.keys.insert(section.keys.end(), {shear_fall, shear_reference});
   for (Section& one : thermal_flow_sections()) section.sections.push_back(std::move(one));
   section.sections.push_back({.name = heating_name,
-                              .meaning = "Adiabatic: ρ c_p Ṫ = β σ̄ ε̄̇ + the work of the artificial viscosity, from "
-                                         "Blocks > Initial Temperature. Without this section T stays.",
+                              .meaning = "Adiabatic heating, ρ c_p Ṫ = β σ̄ ε̄̇ + power of the artificial viscosity, from "
+                                         "Blocks > Initial Temperature. Without this section T is constant.",
                               .keys = {specific_heat, plastic_share}});
-  section.sections.push_back(
-      one_of(equation_name, "The pressure p under shock, in the place of that of Hooke's law.", equations()));
+  section.sections.push_back(one_of(equation_name, "Pressure p under shock, instead of Hooke's law.", equations()));
   return section;
 }
 

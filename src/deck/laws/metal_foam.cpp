@@ -16,8 +16,7 @@ const OptionalKey<double> plastic_poisson({.name = "Plastic Poisson's Ratio",
                                            .range = {.low = 0, .high = 0.5},
                                            .meaning = "ν_p of uniaxial compression: α² = (9/2)(1 − 2ν_p)/(1 + ν_p)."});
 
-const RealKey plateau(
-    {.name = "Plateau Stress", .unit = "Pa", .range = positive, .meaning = "σ_p: where the foam yields."});
+const RealKey plateau({.name = "Plateau Stress", .unit = "Pa", .range = positive, .meaning = "σ_p."});
 const RealKey linear({.name = "Linear Hardening", .unit = "Pa", .range = not_negative, .meaning = "γ."});
 const RealKey locking({.name = "Locking Stress", .unit = "Pa", .range = not_negative, .meaning = "α₂."});
 const RealKey exponent({.name = "Locking Exponent", .range = positive, .meaning = "β."});
@@ -29,23 +28,23 @@ const OptionalKey<double> densification({.name = "Densification Strain",
 const OptionalKey<double> solid_density({.name = "Solid Density",
                                          .unit = "kg/m³",
                                          .range = positive,
-                                         .meaning = "ρ_s of the cell walls: ε_D = −(9 + α²)/(3 α²) ln(Density/ρ_s)."});
+                                         .meaning = "ρ_s of the cell walls; ε_D = −(9 + α²)/(3 α²) ln(Density/ρ_s)."});
 
 const OptionalKey<double> failure_strain(
     {.name = "Failure Strain",
      .range = positive,
-     .meaning = "A point fails when its volume has grown by a factor of exp of this: it carries no stress "
-                "from then on, and keeps its mass and contact. None fails without it."});
+     .meaning = "A point fails when the logarithm of its volume ratio exceeds this: it loses its stress and keeps mass "
+                "and contact. Without this key none fails."});
 
 const OptionalKey<double> compacted_young(
     {.name = "Compacted Young's Modulus",
      .unit = "Pa",
      .range = positive,
-     .meaning = "Of the solid: moduli grow with the plastic compaction up to its. With the next key."});
+     .meaning = "E of the solid, to which the modulus grows with plastic compaction. Needs the next key."});
 
 const OptionalKey<double> compacted_poisson({.name = "Compacted Poisson's Ratio",
                                              .range = {-1, 0.5, false, false},
-                                             .meaning = "Of the solid."});
+                                             .meaning = "ν of the solid."});
 
 // True if exactly one of two keys is given; else reports it.
 bool exactly_one(const Values& material, const Key& one, const Key& other, Problems& problems) {
@@ -93,8 +92,8 @@ materials::Moduli compacted_moduli(const Values& material, const materials::Modu
 Section metal_foam_section() {
   return {.name = "Metal Foam Correspondence",
           .meaning =
-              "A metal foam as a continuum (Deshpande & Fleck 2000): plastic flow that changes the volume, on "
-              "σ̂² = (σ_e² + α² σ_m²)/(1 + (α/3)²) = Y², Y = σ_p + γ e + α₂ ln(1/(1 − e^β)), e = ε̂/ε_D.",
+              "Metal foam as a continuum (Deshpande & Fleck 2000), with plastic change of volume: σ̂² = (σ_e² + α² "
+              "σ_m²)/(1 + (α/3)²) = Y², Y = σ_p + γ e + α₂ ln(1/(1 − e^β)), e = ε̂/ε_D.",
           .keys = {alpha, plastic_poisson, plateau, linear, locking, exponent, densification, solid_density,
                    failure_strain, compacted_young, compacted_poisson}};
 }

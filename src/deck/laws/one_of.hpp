@@ -14,7 +14,7 @@ namespace strut::deck {
 // The first entry is the default.
 template <class Entry>
 Section one_of(const std::string& name, const std::string& meaning, const std::vector<Entry>& entries) {
-  Key type = {.name = "Type", .fallback = entries.front().schema.name, .meaning = "The form; it decides on the keys."};
+  Key type = {.name = "Type", .fallback = entries.front().schema.name, .meaning = "Form."};
   return with_cases({.name = name, .meaning = meaning}, std::move(type), schemas_of(entries));
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 const RealKey relative_density({.name = "Relative Density",
                                 .range = {.low = 0, .high = 1, .with_low = false},
-                                .meaning = "ρ₀*: of the undeformed foam to the solid's."});
+                                .meaning = "ρ₀*, initial density over that of the solid."});
 const RealKey density_exponent({.name = "Density Exponent", .range = not_negative, .meaning = "γ."});
 const RealKey plastic_poisson({.name = "Plastic Poisson's Ratio",
                                .range = {.low = 0, .high = 0.5, .with_high = false},
@@ -24,7 +24,7 @@ const RealKey plastic_poisson({.name = "Plastic Poisson's Ratio",
                                           "β² = (9/2)(1 − 2ν_p)/(1 + ν_p)."});
 const RealKey tension_ratio({.name = "Tension Ratio",
                              .range = positive,
-                             .meaning = "ζ: p_t/p_c, yield in hydrostatic tension to compression."});
+                             .meaning = "ζ = p_t/p_c, yield pressure in tension over that in compression."});
 const RealKey uniaxial_yield(
     {.name = "Uniaxial Yield Stress", .unit = "Pa", .range = positive, .meaning = "τ_y0, in compression."});
 const RealKey hydrostatic_yield(
@@ -34,10 +34,9 @@ const char* const uniaxial_table = "Uniaxial Hardening";
 const char* const hydrostatic_table = "Hydrostatic Hardening";
 
 Section table_section(const std::string& name, const std::string& meaning, const std::string& strains) {
-  return {
-      .name = name,
-      .meaning = meaning + " Piecewise linear, constant beyond the last strain; 0 without this section.",
-      .keys = table_keys(strains, "As many Kirchhoff stresses, what is added to the first yield stress, the first 0.")};
+  return {.name = name,
+          .meaning = meaning + " Piecewise linear, constant beyond the last strain; 0 without this section.",
+          .keys = table_keys(strains, "Increase of the yield stress (Kirchhoff) at each, the first 0.")};
 }
 
 // nullopt if it has been reported as wrong; an empty table if the deck has no such section.
@@ -112,14 +111,14 @@ Section polymer_foam_section() {
   return {
       .name = "Polymer Foam Correspondence",
       .meaning =
-          "A crushable polymeric foam at finite strain: Hencky's elasticity with E = E_M (ρ*)^γ, ρ* = ρ₀*/J, and an "
-          "ellipse of yield through a uniaxial and a hydrostatic test, in Kirchhoff stress. The elastic constants "
-          "are those of the solid polymer: E_M and ν.",
+          "Crushable polymeric foam at finite strain: Hencky elasticity with E = E_M (ρ*)^γ, ρ* = ρ₀*/J, and an "
+          "elliptic yield surface in Kirchhoff stress through a uniaxial and a hydrostatic test. The elastic constants "
+          "are E_M and ν of the solid polymer.",
       .keys = {relative_density, density_exponent, plastic_poisson, tension_ratio, uniaxial_yield, hydrostatic_yield},
       .sections = {table_section(uniaxial_table, "H_a: τ_y = τ_y0 + H_a(ε_a), ε_a = ε_v/(1 − 2ν_p).",
-                                 "Axial plastic strains ε_a, logarithmic, of compression, rising, the first 0."),
+                                 "Axial logarithmic plastic strains ε_a in compression, increasing, the first 0."),
                    table_section(hydrostatic_table, "H_p: p_c = p_c0 + H_p(ε_v), ε_v = −ln det F_p.",
-                                 "Volumetric plastic strains ε_v, of compression, rising, the first 0.")}};
+                                 "Volumetric plastic strains ε_v in compression, increasing, the first 0.")}};
 }
 
 materials::AnyLaw make_polymer_foam(const Values& material, Problems& problems) {

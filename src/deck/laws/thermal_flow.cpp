@@ -49,8 +49,7 @@ void check_softening(const Values& section, Problems& problems) {
 
 // ---- Zerilli & Armstrong --------------------------------------------------------------------------------------------
 
-const RealKey athermal_stress(
-    {.name = "Athermal Stress", .unit = "Pa", .range = not_negative, .meaning = "σ_a, of grains and solutes."});
+const RealKey athermal_stress({.name = "Athermal Stress", .unit = "Pa", .range = not_negative, .meaning = "σ_a."});
 
 namespace zerilli {
 const RealKey modulus(
@@ -75,22 +74,19 @@ ThermalFlow make_zerilli_armstrong(const Values& v) {
 // ---- Mechanical threshold -------------------------------------------------------------------------------------------
 
 namespace threshold {
-const RealKey initial({.name = "Initial Threshold",
-                       .unit = "Pa",
-                       .range = not_negative,
-                       .fallback = "0",
-                       .meaning = "σ̂ of the undeformed metal."});
+const RealKey initial(
+    {.name = "Initial Threshold", .unit = "Pa", .range = not_negative, .fallback = "0", .meaning = "Initial σ̂."});
 const RealKey shear({.name = "Cold Shear Modulus",
                      .unit = "Pa",
                      .range = positive,
-                     .meaning = "μ₀ of μ = μ₀ − D/(exp(T₀/T) − 1) (Varshni 1970), for the flow stress alone."});
+                     .meaning = "μ₀ of μ = μ₀ − D/(exp(T₀/T) − 1) (Varshni 1970), used by the flow stress alone."});
 const RealKey shear_fall({.name = "Shear Modulus Drop", .unit = "Pa", .range = not_negative, .meaning = "D."});
 const RealKey shear_temperature(
     {.name = "Shear Modulus Temperature", .unit = "K", .range = positive, .meaning = "T₀."});
 const RealKey burgers({.name = "Burgers Vector", .unit = "m", .range = positive, .meaning = "b."});
 const RealKey energy({.name = "Activation Energy", .range = positive, .meaning = "g₀, in μ b³."});
 const RealKey rate({.name = "Reference Rate", .unit = "1/s", .range = positive, .meaning = "ε̇₀."});
-const RealKey p({.name = "P", .range = positive, .meaning = "p, of the shape of an obstacle."});
+const RealKey p({.name = "P", .range = positive, .meaning = "p."});
 const RealKey q({.name = "Q", .range = positive, .meaning = "q."});
 const RealKey slope({.name = "Hardening Modulus", .unit = "Pa", .range = positive, .meaning = "a₀."});
 const RealKey slope_log(
@@ -173,8 +169,8 @@ bool is_product(const Values& material) {
 }  // namespace
 
 std::vector<Section> thermal_flow_sections() {
-  return {one_of(flow_name, "The form of the flow stress; the others know the temperature T.", flows()),
-          one_of(softening_name, "The factor θ of the flow stress, with T the temperature.", softenings())};
+  return {one_of(flow_name, "Form of the flow stress.", flows()),
+          one_of(softening_name, "θ of the flow stress, T the temperature.", softenings())};
 }
 
 bool has_thermal_flow(const Values& material) {

@@ -1,6 +1,5 @@
 #include "deck/laws/user_library.hpp"
 
-#include "base/errors.hpp"
 #include "deck/laws/constants.hpp"
 
 namespace strut::deck {
@@ -37,22 +36,6 @@ std::string usual_name(LibraryInterface interface) {
   return "";
 }
 
-void load(const Material& material, UserLaw& law, const std::filesystem::path& folder, Problems& problems) {
-  const std::filesystem::path file = std::filesystem::absolute(folder / law.function.file);
-  const std::string where = "Materials > " + material.name + " > Library";
-  const auto wrong = [&](const std::string& what) { problems.add(where, "'" + file.string() + "' " + what); };
-  if (!std::filesystem::exists(file)) return wrong("does not exist");
-  try {
-    law.function = materials::loaded(file.string(), law.function.name, law.function.interface);
-  } catch (const Error& error) {
-    return wrong(error.what());
-  }
-  const materials::LibraryTrial trial = materials::tried(law);
-  law.tells_energy = trial.tells_energy;
-  if (!trial.problem.empty()) return wrong(trial.problem);
-  if (!trial.warning.empty()) problems.note(where, "'" + file.string() + "' " + trial.warning);
-}
-
 }  // namespace
 
 Section user_library_section() {
@@ -73,12 +56,6 @@ materials::AnyLaw make_user_library(const Values& material, Problems& problems) 
   law.function.file = material[library];
   law.function.name = material[function_name].value_or(usual_name(law.function.interface));
   return law;
-}
-
-void load_user_libraries(std::vector<Material>& materials, const std::filesystem::path& folder, Problems& problems) {
-  for (Material& material : materials) {
-    if (auto* law = std::get_if<UserLaw>(&material.law)) load(material, *law, folder, problems);
-  }
 }
 
 }  // namespace strut::deck

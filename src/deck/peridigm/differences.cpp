@@ -1,5 +1,6 @@
 // Reports keys of Peridigm's decks that mean something else in this program, and by how much.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "deck/numbers.hpp"
@@ -34,6 +35,8 @@ class Differences {
     if (damage && !damage->lists.empty()) tell_of_damage();
     if (values_of("Horizon").size() > 1 && !are_separate()) tell_of_horizons();
     tell_of_contact();
+    tell_of_steps();
+    tell_of_laws();
     if (has_loads()) {
       for (const char* field : {"Force", "Force_Density"}) {
         tell_of_field(field, "holds the loads of Body Force, too; Peridigm writes the internal force alone");
@@ -56,11 +59,13 @@ class Differences {
                blocks_->lists, [](const List& one) { return to_boolean(value_of(one, "Separate Body")) != true; }) <= 1;
   }
 
-  bool has_loads() {
+  bool has_condition(const std::string& type) {
     const List* conditions = find_list(deck_, "Boundary Conditions");
-    return conditions && std::ranges::any_of(conditions->lists,
-                                             [](const List& one) { return value_of(one, "Type") == "Body Force"; });
+    return conditions &&
+           std::ranges::any_of(conditions->lists, [&](const List& one) { return value_of(one, "Type") == type; });
   }
+
+  bool has_loads() { return has_condition("Body Force"); }
 
   void tell_of_damage() {
     tell_of_field("Damage",
@@ -81,6 +86,47 @@ class Differences {
                    "each other's forces; in Peridigm each takes those within its own horizon");
   }
 
+  // Steps of the motion: where they end, and which of them have frames.
+  void tell_of_steps() {
+    List* solver = find_list(deck_, "Solver");
+    List* steps = solver ? find_list(*solver, "Verlet") : nullptr;
+    if (!steps) return;
+    const auto dt = to_real(value_of(*steps, "Fixed dt"));
+    const double duration =
+        to_real(value_of(*solver, "Final Time")).value_or(0) - to_real(value_of(*solver, "Initial Time")).value_or(0);
+    if (!dt) {
+      problems_.note("Solver > Verlet",
+                     "has no Fixed dt: the critical time step is estimated in another way (by the highest frequency), "
+                     "and frames by the number of steps have other times than Peridigm's");
+    } else if (*dt > 0 && std::abs(duration / *dt - std::round(duration / *dt)) > 1e-6) {
+      problems_.note("Solver > Final Time",
+                     "is where the last step ends, which is shorter than Fixed dt; Peridigm takes whole steps only");
+    }
+    if (has_condition("Prescribed Displacement")) {
+      tell_of_field("Velocity",
+                    "of points with Prescribed Displacement is that of their motion from the initial time on; in "
+                    "Peridigm's frame at the initial time it is 0");
+    }
+  }
+
+  // Both programs integrate rates of deformation.
+  void tell_of_laws() {
+    List* materials = find_list(deck_, "Materials");
+    if (!materials) return;
+    for (const List& material : materials->lists) {
+      const std::string model = value_of(material, "Material Model"), path = "Materials > " + material.name;
+      if (!model.ends_with("Correspondence")) continue;
+      problems_.note(path,
+                     "integrates the rate of deformation at the middle of a step, Peridigm at its end: stresses differ "
+                     "by half a step's strain, relative to the strain");
+      if (model.starts_with("Elastic Plastic")) {
+        tell_of_field("Equivalent_Plastic_Strain",
+                      "is what the yield condition asks for; Peridigm's is some 10 % lower, the more the larger the "
+                      "steps");
+      }
+    }
+  }
+
   void tell_of_contact() {
     List* contact = find_list(deck_, "Contact");
     List* models = contact ? find_list(*contact, "Models") : nullptr;
@@ -90,6 +136,11 @@ class Differences {
       problems_.note("Contact > Models > " + model.name + " > Contact Radius",
                      "is the distance from which points push each other; those of two bodies that start nearer do so "
                      "from that distance on, in Peridigm from the radius on, so that they push at once");
+      if (to_real(value_of(model, "Friction Coefficient")).value_or(0) > 0) {
+        problems_.note("Contact > Models > " + model.name + " > Friction Coefficient",
+                       "acts across the normal of the surface, and no more than stops the sliding; in Peridigm across "
+                       "the bond, always the whole");
+      }
     }
   }
 
@@ -106,15 +157,45 @@ class Differences {
 
 }  // namespace
 
+namespace {
+
+bool has_peridigms_solver(List& deck) {
+  const auto is_theirs = [](List& solver) {
+    List* slow = find_list(solver, "QuasiStatic");
+    return find_list(solver, "NOXQuasiStatic") || find_list(solver, "Implicit") ||
+           find_parameter(solver, "Peridigm Preconditioner") ||
+           (slow && has_any(*slow, {"Absolute Tolerance", "Relative Tolerance", "Belos Linear Solver",
+                                    "Disable Heuristics", "Time Steps"}));
+  };
+  return std::ranges::any_of(deck.lists, [&](List& one) {
+    return one.name.starts_with("Solver") && (one.name != "Solver" || is_theirs(one));
+  });
+}
+
+bool has_peridigms_output(List& deck) {
+  return std::ranges::any_of(deck.lists, [](List& one) {
+    const bool is_output = find_list(one, "Output Variables") && one.name.starts_with("Output");
+    return is_output && (one.name != "Output" || has_any(one, {"Output Format", "Parallel Write"}));
+  });
+}
+
+}  // namespace
+
 bool is_peridigms(List& deck) {
   const auto section = [&](const char* name) { return find_list(deck, name); };
   List *mesh = section("Discretization"), *contact = section("Contact");
-  return section("Compute Class Parameters") || section("Output1") ||
-         sets_are_parameters(section("Boundary Conditions")) ||
-         (mesh && has_any(*mesh, {"NeighborhoodType", "Omit Bonds Between Blocks"})) ||
+  return section("Compute Class Parameters") || has_peridigms_output(deck) || has_peridigms_solver(deck) ||
+         (mesh && has_any(*mesh, {"Omit Bonds Between Blocks", "Store Exodus Mesh"})) ||
          (contact && has_any(*contact, {"Search Radius", "Search Frequency"})) ||
          any_section_has(section("Materials"),
-                         {"Hourglass Coefficient", "Apply Shear Correction Factor", "Enable Flaw"});
+                         {"Hourglass Coefficient", "Apply Shear Correction Factor", "Enable Flaw", "Disable Plasticity",
+                          "Thermal Expansion Coefficient", "Apply Automatic Differentiation Jacobian"});
+}
+
+bool may_be_peridigms(List& deck) {
+  List* mesh = find_list(deck, "Discretization");
+  return is_peridigms(deck) || sets_are_parameters(find_list(deck, "Boundary Conditions")) ||
+         (mesh && has_any(*mesh, {"NeighborhoodType"}));
 }
 
 void tell_differences(List& deck, Problems& problems) { Differences(deck, problems).tell(); }

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <optional>
 
 #include "base/errors.hpp"
+#include "base/math/tensors.hpp"
 #include "deck/numbers.hpp"
 
 namespace strut::deck {
@@ -16,19 +19,14 @@ Named* find(std::vector<Named>& all, const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-// Peridigm compares these words without regard to case, and treats _ as a blank.
-std::string tidied(std::string text) {
-  text = std::string(trimmed(text));
-  for (char& c : text) c = c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-// A key whose only value with a meaning here is the one that switches it off.
+// A key whose only value with a meaning here is the one that switches it off. Another value is an error, or only told.
 struct OnlyOff {
   const char *key, *off, *what;
+  bool is_told = false;
 };
 const OnlyOff only_off[] = {
-    {"Apply Shear Correction Factor", "false", "there is no correction of moduli at surfaces"},
+    {"Apply Shear Correction Factor", "false",
+     "there is no correction of moduli at surfaces (Peridigm 1.6 has it for 'Elastic Plastic Hardening' alone)", true},
     {"Enable Flaw", "false", "there are no flaws in a material; make them in the mesh"},
     {"Thermal Expansion Coefficient", "0", "there is no thermal expansion"},
     {"Apply Automatic Differentiation Jacobian", "", "equilibria are found in another way"},
@@ -46,9 +44,9 @@ void drop_what_is_off(List& material, const std::string& path, Problems& problem
     const Parameter* given = find_parameter(material, key.key);
     if (!given) continue;
     const std::string where = path_to(path, key.key);
-    if (!is_off(*given, key)) {
+    if (!is_off(*given, key) && !key.is_told) {
       problems.add(where, "'" + given->value + "'; expected " + key.off + ": " + key.what);
-    } else if (!*key.off) {
+    } else if (!*key.off || !is_off(*given, key)) {
       problems.note(where, std::string("has no effect here: ") + key.what);
     }
     erase_parameter(material, key.key);
@@ -84,6 +82,19 @@ void translate_hourglass(List& material, const std::string& path, Problems& prob
                     "deck PredictorFromPreviousSolver differ by 2 %, others may by more");
 }
 
+// Peridigm's switch turns its plastic ordinary solid into the elastic one.
+void translate_disabled_plasticity(List& material, const std::string& path, Problems& problems) {
+  Parameter* model = find_parameter(material, "Material Model");
+  const bool disabled = tidied(value_of(material, "Disable Plasticity")) == "true";
+  erase_parameter(material, "Disable Plasticity");
+  if (!model || !disabled || !tidied(model->value).starts_with("elastic plastic") ||
+      model->value.ends_with("Correspondence"))
+    return;
+  model->value = "Elastic";
+  for (const char* key : {"Yield Stress", "Hardening Modulus"}) erase_parameter(material, key);
+  problems.note(path_to(path, "Disable Plasticity"), "makes it the law 'Elastic', as in Peridigm");
+}
+
 void translate_isotropic_hardening(List& material) {
   Parameter* model = find_parameter(material, "Material Model");
   if (!model || model->value != "Isotropic Hardening Correspondence") return;
@@ -101,6 +112,7 @@ void translate_materials(List& deck, Problems& problems) {
   for (List& material : materials->lists) {
     const std::string path = "Materials > " + material.name;
     translate_isotropic_hardening(material);
+    translate_disabled_plasticity(material, path, problems);
     translate_hourglass(material, path, problems);
     drop_flaw(material);
     drop_what_is_off(material, path, problems);
@@ -163,6 +175,66 @@ void translate_blocks(List& deck, Problems& problems) {
   translate_omitted_bonds(*discretization, *blocks, problems);
 }
 
+// What Peridigm does without a key.
+void add_defaults(List& mesh, Problems& problems) {
+  const auto add = [&](const std::string& key, const std::string& value) {
+    if (!find_parameter(mesh, key)) mesh.parameters.push_back({key, "string", value});
+  };
+  add("Degenerate Points", "Keep");
+  if (value_of(mesh, "Type") != "PdQuickGrid" || find_parameter(mesh, "NeighborhoodType")) return;
+  add("NeighborhoodType", "Box");
+  problems.note("Discretization > NeighborhoodType",
+                "is missing: families are boxes of cells, as in Peridigm, not the points within the horizon");
+}
+
+// A filter's vector from three keys, written back as such.
+const char* const axis_endings[] = {"_X", "_Y", "_Z"};
+
+std::optional<Vector> vector_of(List& filter, const std::string& name) {
+  Vector vector;
+  for (int c = 0; c < 3; ++c) {
+    const auto part = to_real(value_of(filter, name + axis_endings[c]));
+    if (!part) return std::nullopt;
+    vector[c] = *part;
+  }
+  return vector;
+}
+
+// Peridigm takes the bottom vector as it is: of one that is not of unit length, or leaves the plane, its part in the
+// plane counts, and both edges are measured in units of that.
+void straighten(List& filter, const std::string& path, Problems& problems) {
+  const auto normal = vector_of(filter, "Normal"), bottom = vector_of(filter, "Bottom_Unit_Vector");
+  if (!normal || !bottom || normal->norm() == 0) return;
+  const Vector n = normal->normalized(), along = *bottom - n * n.dot(*bottom);
+  const double unit = along.norm();
+  if (unit < 1e-6 || (std::abs(unit - 1) < 1e-6 && std::abs(n.dot(*bottom)) < 1e-6)) return;
+  for (int c = 0; c < 3; ++c)
+    find_parameter(filter, std::string("Bottom_Unit_Vector") + axis_endings[c])->value = to_text(along[c] / unit);
+  for (const char* edge : {"Bottom_Length", "Side_Length"}) {
+    Parameter* length = find_parameter(filter, edge);
+    const auto number = length ? to_real(length->value) : std::nullopt;
+    if (number) length->value = to_text(*number / unit);
+  }
+  problems.note(path + " > Bottom_Unit_Vector_X", "is no unit vector in the plane: its part there counts, of length " +
+                                                      to_text(unit) +
+                                                      ", in units of whose inverse the edges are, as in Peridigm");
+}
+
+// Peridigm watches nothing: its runs go on, and so do these, with a warning.
+void go_on_beyond_limits(List& deck) {
+  if (find_list(deck, "Watch")) return;
+  deck.lists.push_back({"Watch", {{"Beyond Limits", "string", "Continue"}}, {}});
+}
+
+void read_mesh_as_peridigm(List& deck, Problems& problems) {
+  List* mesh = find_list(deck, "Discretization");
+  if (!mesh) return;
+  add_defaults(*mesh, problems);
+  List* filters = find_list(*mesh, "Bond Filters");
+  if (!filters) return;
+  for (List& filter : filters->lists) straighten(filter, "Discretization > Bond Filters > " + filter.name, problems);
+}
+
 void translate_conditions(List& deck) {
   List* conditions = find_list(deck, "Boundary Conditions");
   if (!conditions) return;
@@ -172,39 +244,19 @@ void translate_conditions(List& deck) {
     Parameter* axis = find_parameter(condition, "Coordinate");
     if (axis && axis->value.size() == 1) axis->value = tidied(axis->value);
     Parameter* type = find_parameter(condition, "Type");
-    for (const char* known : {"Initial Velocity", "Prescribed Displacement", "Body Force"}) {
+    for (const char* known : {"Initial Displacement", "Initial Velocity", "Prescribed Displacement", "Body Force"}) {
       if (type && tidied(type->value) == tidied(known)) type->value = known;
     }
   }
 }
 
-// Converts another solver for the same equilibria.
-void translate_nox(List& solver, Problems& problems) {
-  List* nox = find_list(solver, "NOXQuasiStatic");
-  if (!nox || find_list(solver, "QuasiStatic")) return;
-  nox->name = "QuasiStatic";
-  nox->lists.clear();
-  std::erase_if(nox->parameters, [](const Parameter& one) { return one.name != "Number of Load Steps"; });
-  problems.note("Solver > NOXQuasiStatic",
-                "is taken as QuasiStatic, of all its keys Number of Load Steps: equilibria are found in another way");
-}
-
-void translate_solver(List& deck, Problems& problems) {
-  List* solver = find_list(deck, "Solver");
-  if (!solver) return;
-  if (find_list(*solver, "Rebalance")) {
-    erase_list(*solver, "Rebalance");
-    problems.note("Solver > Rebalance", "has no effect here: the points stay with their ranks");
-  }
-  translate_nox(*solver, problems);
-  List* equilibria = find_list(*solver, "QuasiStatic");
-  Parameter* tolerance = equilibria ? find_parameter(*equilibria, "Relative Tolerance") : nullptr;
-  if (!tolerance || find_parameter(*equilibria, "Tolerance")) return;
-  tolerance->name = "Tolerance";
-  problems.note("Solver > QuasiStatic > Relative Tolerance", "is taken as Tolerance");
-}
-
 }  // namespace
+
+std::string tidied(std::string text) {
+  text = std::string(trimmed(text));
+  for (char& c : text) c = c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
 
 Parameter* find_parameter(List& list, const std::string& name) { return find(list.parameters, name); }
 
@@ -225,14 +277,20 @@ void erase_list(List& list, const std::string& name) {
   std::erase_if(list.lists, [&](const List& one) { return one.name == name; });
 }
 
-void translate_peridigm(List& deck, Problems& problems) {
-  const bool is_theirs = is_peridigms(deck);
+bool translate_peridigm(List& deck, const std::filesystem::path& folder, Problems& problems) {
+  const bool is_theirs = is_peridigms(deck), differs = may_be_peridigms(deck);
+  if (is_theirs) read_as_peridigm(deck, folder, problems);
+  if (is_theirs) read_mesh_as_peridigm(deck, problems);
+  if (is_theirs) go_on_beyond_limits(deck);
   translate_blocks(deck, problems);
   translate_materials(deck, problems);
   translate_conditions(deck);
-  translate_solver(deck, problems);
-  translate_outputs(deck, problems);
-  if (is_theirs) tell_differences(deck, problems);
+  refuse_what_is_missing(deck, problems);
+  translate_solvers(deck, problems);
+  if (is_theirs) translate_displacements(deck, problems);
+  translate_outputs(deck, is_theirs, problems);
+  if (differs) tell_differences(deck, problems);
+  return is_theirs;
 }
 
 }  // namespace strut::deck

@@ -3,6 +3,7 @@
 // in the schema.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "deck/problems.hpp"
@@ -10,13 +11,31 @@
 
 namespace strut::deck {
 
-void translate_peridigm(List& deck, Problems& problems);
+// `folder`: the deck's. Returns true if the deck was written for Peridigm.
+bool translate_peridigm(List& deck, const std::filesystem::path& folder, Problems& problems);
+
+// True if a deck has sections or keys that only decks of Peridigm have: its meanings hold.
+bool is_peridigms(List& deck);
+// True if it has such that ours have seldom: differences are told.
+bool may_be_peridigms(List& deck);
+
+// What Peridigm's reader of decks does and ours does not: the last of several equal keys counts, \{ is a brace, files
+// are relative to the working folder. Only for its decks.
+void read_as_peridigm(List& deck, const std::filesystem::path& folder, Problems& problems);
+
+// Reports sections, laws and conditions that do not exist here, each once, and takes them and their keys out of the
+// deck.
+void refuse_what_is_missing(List& deck, Problems& problems);
+
+// Converts Solver1, Solver2 … and the solvers for equilibria.
+void translate_solvers(List& deck, Problems& problems);
+
+// Prescribed displacements that are not zero at the initial time: Peridigm adds up increments since then.
+void translate_displacements(List& deck, Problems& problems);
 
 // Converts its sections Output, Output1, "Output Data" … and Compute Class Parameters to one Output and one History.
-void translate_outputs(List& deck, Problems& problems);
+void translate_outputs(List& deck, bool is_theirs, Problems& problems);
 
-// True if a deck has sections or keys that only decks of Peridigm need.
-bool is_peridigms(List& deck);
 // Adds a note for each key that has another meaning in this program than in Peridigm.
 void tell_differences(List& deck, Problems& problems);
 
@@ -24,6 +43,7 @@ void tell_differences(List& deck, Problems& problems);
 Parameter* find_parameter(List& list, const std::string& name);
 List* find_list(List& list, const std::string& name);
 std::string value_of(const List& list, const std::string& name);  // "" if there is none
+std::string tidied(std::string text);  // in lower case, with blanks for _: as Peridigm compares words
 void erase_parameter(List& list, const std::string& name);
 void erase_list(List& list, const std::string& name);
 

@@ -14,7 +14,7 @@ namespace {
 
 // Fields that do not exist here, and their substitutes.
 const std::map<std::string, std::string> missing_fields = {
-    {"Bond_Damage", "there is Damage, the share of broken bonds of a point"},
+    {"Bond_Damage", "there is Damage, the fraction of broken bonds of a point"},
     {"Coordinates", "there are Coordinate_X, Coordinate_Y and Coordinate_Z"},
     {"Model_Coordinates", "they are the coordinates of the nodes in the file"},
     {"Block_Id", "elements are in the blocks of the file"},
@@ -38,7 +38,55 @@ const std::map<std::string, std::string> missing_fields = {
     {"Surface_Correction_Factor", "it would be 1 everywhere"},
     {"Neighborhood_Volume", ""},
     {"Temperature_Change", "there is none"},
+    {"External_Force_Density", "Force_Density holds the loads"},
+    {"Lambda", "there is Equivalent_Plastic_Strain"},
+    {"Jacobian_Determinant", "there is Jacobian"},
+    {"Green_Lagrange_Strain", "there is Deformation_Gradient"},
+    {"Influence_Function", "it is the deck's"},
+    {"Undamaged_Weighted_Volume", "there is Weighted_Volume, which does not fall with damage"},
 };
+
+// More of them, with nothing near.
+const std::vector<std::string> other_missing_fields = {"Bond_Damage_Parameter",
+                                                       "Bond_Equivalent_Plastic_Strain",
+                                                       "Bond_Stress_Triaxiality",
+                                                       "Bond_Visualization",
+                                                       "Bond_Von_Mises_Stress",
+                                                       "Broken_Bond_Volume_Averaged",
+                                                       "Concentration",
+                                                       "Concentration_Flux_Divergence",
+                                                       "Critical_Stretch",
+                                                       "Deformation_Gradient_Dot",
+                                                       "Deformation_Gradient_Inv",
+                                                       "Deviatoric_Back_Extension",
+                                                       "Deviatoric_Normalization",
+                                                       "Deviatoric_Plastic_Extension",
+                                                       "Dilatation_Normalization",
+                                                       "Error",
+                                                       "Fluid_Concentration",
+                                                       "Fluid_Pressure_U",
+                                                       "Fluid_Pressure_V",
+                                                       "Fluid_Pressure_Y",
+                                                       "Flux_Density",
+                                                       "Flux_Divergence",
+                                                       "Flying_Point_Flag",
+                                                       "Gradient_Weight",
+                                                       "Gradient_Weight_Evaluation_Flag",
+                                                       "Influence_State",
+                                                       "Interface_Aperture",
+                                                       "Neighbor_Centroid",
+                                                       "Neighbor_Volume",
+                                                       "Nonhomogeneous_Integral",
+                                                       "Normalized_Weighted_Volume",
+                                                       "OBC_Functional",
+                                                       "Pals_Pressure",
+                                                       "Piola_Stress",
+                                                       "Quadrature_Weights",
+                                                       "Self_Centroid",
+                                                       "Self_Volume",
+                                                       "Stress_Integral",
+                                                       "Stress_Triaxiality",
+                                                       "Velocity_Gradient"};
 
 // ½ m v⁻·v⁺ with the velocities before and after a force: it conserves energy, but it can be negative.
 const std::string kinetic =
@@ -51,6 +99,7 @@ const std::map<std::string, std::string> global_columns = {
     {"Global_Strain_Energy", "Elastic_Energy"},
     {"Global_Linear_Momentum", "Momentum_X, Momentum_Y, Momentum_Z"},
     {"Global_Angular_Momentum", ""},
+    {"Global_Error", ""},
     {"Global_Strain_Energy_Density", ""},
     {"Nonlinear_Solver_Iterations", ""},
 };
@@ -66,11 +115,33 @@ const std::vector<std::string> tensors = {"Deformation_Gradient",
                                           "Stress",
                                           "Partial_Stress"};
 
-const std::vector<std::string> scalars = {"Von_Mises_Stress", "Equivalent_Plastic_Strain", "Dilatation",
-                                          "Weighted_Volume",  "Number_Of_Neighbors",       "Volume"};
+const std::vector<std::string> vectors = {"Displacement", "Velocity", "Force", "Force_Density"};
+const std::vector<std::string> scalars = {"Von_Mises_Stress",
+                                          "Equivalent_Plastic_Strain",
+                                          "Dilatation",
+                                          "Weighted_Volume",
+                                          "Number_Of_Neighbors",
+                                          "Volume",
+                                          "Damage",
+                                          "Horizon"};
 
 bool among(const std::vector<std::string>& all, const std::string& name) {
   return std::find(all.begin(), all.end(), name) != all.end();
+}
+
+// "Cauchy_Stress_XY" is Cauchy_Stress of a bond: a field there, not here.
+std::string without_axes(const std::string& name) {
+  const std::size_t last = name.find_last_not_of("XYZ");
+  const bool has_axes = last != std::string::npos && last + 1 < name.size() && name[last] == '_';
+  return has_axes ? name.substr(0, last) : name;
+}
+
+// `is_theirs`: in our decks a name that is nearly right is an error, and a metal may have a Temperature.
+bool is_missing(const std::string& name, bool is_theirs) {
+  const std::string whole = without_axes(name);
+  return missing_fields.contains(name) ||
+         (is_theirs && (name == "Temperature" || among(other_missing_fields, name) ||
+                        among(other_missing_fields, whole) || (whole != name && among(tensors, whole))));
 }
 
 // "Cauchy_StressXY" is a component of Cauchy_Stress, which is written as a whole.
@@ -81,23 +152,30 @@ std::string whole_field(const std::string& name) {
   return component ? whole : name;
 }
 
-// Our name for a compute class of a block or node set: "Max_Von_Mises_Stress(block_1)", or "".
-std::string column_of(const List& compute) {
+// Our names for a compute class: "Max_Von_Mises_Stress(block_1)"; none if there is nothing like it. `set`: the name of
+// the points.
+std::vector<std::string> columns_of(const List& compute, const std::string& set) {
   const std::string kind = value_of(compute, "Compute Class"), calculation = value_of(compute, "Calculation Type");
-  const std::string where = value_of(compute, kind == "Block_Data" ? "Block" : "Node Set");
   const std::string variable = value_of(compute, "Variable");
-  const bool known = (kind == "Block_Data" || kind == "Node_Set_Data") && among(scalars, variable);
-  if (!known || (calculation != "Maximum" && calculation != "Minimum")) return "";
-  return calculation.substr(0, 3) + "_" + variable + "(" + where + ")";
+  const std::map<std::string, std::string> starts = {
+      {"Maximum", "Max_"}, {"Minimum", "Min_"}, {"Sum", "Sum_"}, {"", kind == "Nearest_Point_Data" ? "Mean_" : ""}};
+  const auto start = starts.find(calculation);
+  if (start == starts.end() || start->second.empty()) return {};
+  if (among(scalars, variable)) return {start->second + variable + "(" + set + ")"};
+  if (!among(vectors, variable)) return {};
+  std::vector<std::string> columns;
+  for (const char* axis : {"_X", "_Y", "_Z"}) columns.push_back(start->second + variable + axis + "(" + set + ")");
+  return columns;
 }
 
 class Outputs {
  public:
-  Outputs(List& deck, Problems& problems) : deck_(deck), problems_(problems) {
-    const List* computes = find_list(deck, "Compute Class Parameters");
-    if (!computes) return;
-    for (const List& one : computes->lists) computed_[value_of(one, "Output Label")] = column_of(one);
+  Outputs(List& deck, bool is_theirs, Problems& problems) : deck_(deck), is_theirs_(is_theirs), problems_(problems) {
+    List* found = find_list(deck, "Compute Class Parameters");
+    if (!found) return;
+    const std::vector<List> computes = found->lists;
     erase_list(deck, "Compute Class Parameters");
+    for (const List& one : computes) computed_[value_of(one, "Output Label")] = columns_of(one, points_of(one));
   }
 
   void translate() {
@@ -114,6 +192,24 @@ class Outputs {
   }
 
  private:
+  // The name of a compute class's points. The point nearest to a place is a set of its own.
+  std::string points_of(const List& compute) {
+    const std::string kind = value_of(compute, "Compute Class");
+    if (kind == "Block_Data") return value_of(compute, "Block");
+    if (kind == "Node_Set_Data") return value_of(compute, "Node Set");
+    if (kind != "Nearest_Point_Data") return "";
+    const std::string label = value_of(compute, "Output Label"), set = label + " Node Set";
+    List* conditions = find_list(deck_, "Boundary Conditions");
+    if (!conditions) {
+      deck_.lists.push_back({"Boundary Conditions", {}, {}});
+      conditions = &deck_.lists.back();
+    }
+    std::string place = "nearest";
+    for (const char* axis : {"X", "Y", "Z"}) place += " " + value_of(compute, axis);
+    conditions->parameters.push_back({set, "string", place});
+    return set;
+  }
+
   static bool is_output(List& section) {
     return section.name == "Output" || (section.name.starts_with("Output") && find_list(section, "Output Variables") &&
                                         find_parameter(section, "Output Filename"));
@@ -124,13 +220,35 @@ class Outputs {
     const bool had_numbers = variables && sort_out(*variables, section.name);
     if (had_numbers) want_history(section);
     if (had_numbers && variables->parameters.empty()) return;
-    if (!fields_.empty()) {
-      return problems_.add(section.name, "a second section with fields, after '" + fields_ +
-                                             "'; there is one file of fields: put all into one of them");
-    }
+    drop_range(section);
+    if (!fields_.empty()) return join(section, *variables);
     fields_ = section.name;
     section.name = "Output";
     deck_.lists.push_back(section);
+  }
+
+  // A file is written during the whole run.
+  void drop_range(List& section) {
+    for (const char* key : {"Initial Output Step", "Final Output Step"}) {
+      if (!find_parameter(section, key)) continue;
+      erase_parameter(section, key);
+      problems_.note(section.name + " > " + key, "has no effect here: there are frames in the whole run");
+    }
+  }
+
+  // There is one file of fields: it takes those of the others, too, as often as the one with most frames.
+  void join(List& section, const List& variables) {
+    List& first = *find_list(deck_, "Output");
+    problems_.note(section.name, "writes no file of its own: its fields go into that of " + fields_ + ", '" +
+                                     value_of(first, "Output Filename") + "'");
+    List& fields = *find_list(first, "Output Variables");
+    for (const Parameter& one : variables.parameters) {
+      if (!find_parameter(fields, one.name)) fields.parameters.push_back(one);
+    }
+    const auto often = to_integer(value_of(section, "Output Frequency"));
+    Parameter* frequency = find_parameter(first, "Output Frequency");
+    const auto known = frequency ? to_integer(frequency->value) : std::nullopt;
+    if (often && known && *often < *known) frequency->value = std::to_string(*often);
   }
 
   // Keeps in `variables` the fields that exist here; returns true if there were totals among the others.
@@ -155,28 +273,30 @@ class Outputs {
 
   bool take_number(const std::string& name, const std::string& path) {
     if (const auto global = global_columns.find(name); global != global_columns.end()) {
-      note_column(path, global->second);
+      note_columns(path, global->second);
       return true;
     }
     const auto computed = computed_.find(name);
     if (computed == computed_.end()) return false;
-    note_column(path, computed->second);
-    if (!computed->second.empty() && !among(columns_, computed->second)) columns_.push_back(computed->second);
+    note_columns(path, joined(computed->second));
+    for (const std::string& column : computed->second) {
+      if (!among(columns_, column)) columns_.push_back(column);
+    }
     return true;
   }
 
-  void note_column(const std::string& path, const std::string& column) {
+  void note_columns(const std::string& path, const std::string& column) {
     problems_.note(path,
                    column.empty() ? "is not written: there is no such number here" : "goes into History: " + column);
   }
 
   bool take_missing(const Parameter& field, const std::string& section) {
-    const auto missing = missing_fields.find(field.name);
-    if (missing == missing_fields.end()) return false;
+    if (!is_missing(field.name, is_theirs_)) return false;
+    const auto known = missing_fields.find(field.name);
+    const std::string instead = known == missing_fields.end() ? "" : known->second;
     if (!among(told_, field.name)) {
-      problems_.note(
-          section + " > Output Variables > " + field.name,
-          "is not written: there is no such field here" + (missing->second.empty() ? "" : "; " + missing->second));
+      problems_.note(section + " > Output Variables > " + field.name,
+                     "is not written: there is no such field here" + (instead.empty() ? "" : "; " + instead));
     }
     told_.push_back(field.name);
     return true;
@@ -206,8 +326,9 @@ class Outputs {
   }
 
   List& deck_;
+  bool is_theirs_;
   Problems& problems_;
-  std::map<std::string, std::string> computed_;  // label of each compute class, with its column, or ""
+  std::map<std::string, std::vector<std::string>> computed_;  // label of each compute class, with its columns
   std::vector<std::string> columns_, told_;
   std::string fields_;  // name of the section with the fields
   std::string file_;    // of the totals
@@ -216,6 +337,8 @@ class Outputs {
 
 }  // namespace
 
-void translate_outputs(List& deck, Problems& problems) { Outputs(deck, problems).translate(); }
+void translate_outputs(List& deck, bool is_theirs, Problems& problems) {
+  Outputs(deck, is_theirs, problems).translate();
+}
 
 }  // namespace strut::deck

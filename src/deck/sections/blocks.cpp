@@ -11,9 +11,8 @@ namespace {
 
 const char* const name = "Blocks";
 
-const NamesKey block_names(
-    {.name = "Block Names",
-     .meaning = "Blocks of the mesh, or `all`, or `default`: those that no other section names."});
+const NamesKey block_names({.name = "Block Names",
+                            .meaning = "Blocks of the mesh, `all`, or `default` (those that no other section names)."});
 
 const TextKey material({.name = "Material", .meaning = "The name of a section in Materials."});
 
@@ -21,35 +20,33 @@ const OptionalKey<double> horizon(
     {.name = "Horizon",
      .unit = "m",
      .range = positive,
-     .meaning = "δ: points closer than this are neighbors. Either this or Horizon Factor."});
+     .meaning =
+         "δ: points i and j are neighbors when they are closer than (δ_i + δ_j)/2. Either this or Horizon Factor."});
 
 const OptionalKey<double> horizon_factor(
     {.name = "Horizon Factor",
      .range = {.low = 1, .high = 20},
-     .meaning = "δ of each point in local spacings: the edge of a cube with the volume of its "
-                "element, or with the mean volume of the elements around its node (six times "
-                "that of tetrahedra). Points i and j are neighbors when they are closer than (δ_i + δ_j)/2."});
+     .meaning = "δ in local spacings: the edge of a cube with the volume of the element, or with the mean volume of "
+                "the elements around the node (six times that of tetrahedra)."});
 
-const BooleanKey separate_body({.name = "Separate Body",
-                                .fallback = "false",
-                                .meaning = "Points of this section are not bonded to those of others, however near: a "
-                                           "body of its own, that others meet in contact."});
+const BooleanKey separate_body(
+    {.name = "Separate Body",
+     .fallback = "false",
+     .meaning = "No bonds to points of other sections: a body of its own, which others meet in contact."});
 
 const OptionalKey<bool> across_voids(
     {.name = "Bonds Across Voids",
-     .meaning = "false: bonds run through material. Two points within the horizon are bonded only if "
-                "elements that share nodes lead from one to the other within it. Needs hexahedra or "
-                "tetrahedra. Without this key: true, but false for Quadratic Correspondence."});
+     .meaning = "false: two points within the horizon are bonded only if elements that share nodes connect them within "
+                "it (hexahedra or tetrahedra). Default true; false for Quadratic Correspondence."});
 
-const OptionalKey<std::string> damage_model({.name = "Damage Model",
-                                             .meaning = "The name of a section in Damage Models. Without this key its "
-                                                        "bonds hold, but for those to a block that has one."});
+const OptionalKey<std::string> damage_model(
+    {.name = "Damage Model",
+     .meaning = "The name of a section in Damage Models. Without this key bonds break only to blocks that have one."});
 
-const OptionalKey<double> initial_temperature(
-    {.name = "Initial Temperature",
-     .unit = "K",
-     .range = positive,
-     .meaning = "Of a metal that knows its temperature; 293 without this key."});
+const OptionalKey<double> initial_temperature({.name = "Initial Temperature",
+                                               .unit = "K",
+                                               .range = positive,
+                                               .meaning = "For laws with a temperature; default 293."});
 
 void check_horizon(const Values& values, Problems& problems) {
   check_one_of(values, horizon, horizon_factor, problems);
@@ -79,15 +76,14 @@ void check_overlaps(const std::vector<Block>& blocks, Problems& problems) {
 }  // namespace
 
 Section blocks_section() {
-  return {
-      .name = name,
-      .required = true,
-      .meaning = "What the blocks of the mesh are made of.",
-      .sections = {{.name = any_name,
-                    .required = true,
-                    .meaning = "One or more blocks of the mesh. A block of the mesh belongs to one section at most.",
-                    .keys = {block_names, material, horizon, horizon_factor, separate_body, across_voids, damage_model,
-                             initial_temperature}}}};
+  return {.name = name,
+          .required = true,
+          .meaning = "Material and neighborhood of the blocks of the mesh.",
+          .sections = {{.name = any_name,
+                        .required = true,
+                        .meaning = "One or more blocks of the mesh; each belongs to one section at most.",
+                        .keys = {block_names, material, horizon, horizon_factor, separate_body, across_voids,
+                                 damage_model, initial_temperature}}}};
 }
 
 bool asks_for_temperature(const DamageModel& model) {

@@ -36,15 +36,17 @@ struct ComponentKeys {
   }
 };
 
-const ComponentKeys normal("Normal", "", "Of the plane, of any length but zero.");
-const ComponentKeys corner("Lower_Left_Corner", "m", "A corner.");
+const ComponentKeys normal("Normal", "", "Normal of the plane, of any length.");
+const ComponentKeys corner("Lower_Left_Corner", "m", "Position of a corner.");
 const ComponentKeys bottom("Bottom_Unit_Vector", "",
-                           "From the corner along an edge; the other edge is along this × normal.");
-const RealKey bottom_length({.name = "Bottom_Length", .unit = "m", .range = positive, .meaning = "Of the first edge."});
-const RealKey side_length({.name = "Side_Length", .unit = "m", .range = positive, .meaning = "Of the other edge."});
+                           "Direction of the first edge from the corner; the other edge is along this × normal.");
+const RealKey bottom_length(
+    {.name = "Bottom_Length", .unit = "m", .range = positive, .meaning = "Length of the first edge."});
+const RealKey side_length(
+    {.name = "Side_Length", .unit = "m", .range = positive, .meaning = "Length of the other edge."});
 
-const ComponentKeys center("Center", "m", "Of the disk.");
-const RealKey radius({.name = "Radius", .unit = "m", .range = positive, .meaning = "Of the disk."});
+const ComponentKeys center("Center", "m", "Center of the disk.");
+const RealKey radius({.name = "Radius", .unit = "m", .range = positive, .meaning = "Radius of the disk."});
 
 std::vector<Key> keys_of(const std::vector<ComponentKeys>& vectors, const std::vector<Key>& others) {
   std::vector<Key> keys;
@@ -85,10 +87,9 @@ const std::vector<FilterEntry>& entries() {
 
 Section bond_filters_section() {
   return {.name = name,
-          .meaning = "Cracks that the bodies have from the start: bonds do not cross them.",
+          .meaning = "Initial cracks, which no bond crosses.",
           .sections = {with_cases({.name = any_name, .required = true, .meaning = "One crack."},
-                                  {.name = "Type", .meaning = "Its form; it decides on further keys."},
-                                  schemas_of(entries()))}};
+                                  {.name = "Type", .meaning = "Shape."}, schemas_of(entries()))}};
 }
 
 std::vector<Crack> read_bond_filters(const Values& discretization, Problems& problems) {

@@ -1,5 +1,6 @@
 #include "deck/sections/conditions.hpp"
 
+#include "deck/numbers.hpp"
 #include "deck/problems.hpp"
 #include "deck/sections/numbered_sets.hpp"
 #include "deck/sections/tools.hpp"
@@ -13,10 +14,10 @@ const TextKey node_set({.name = "Node Set",
                         .fallback = "all",
                         .meaning = "A node set of the mesh or of Node Sets, a block's name, or `all`."});
 
-const AxesKey components({.name = "Coordinate",
-                          .meaning = "The axes it acts along, in any order: each with the same value."});
+const AxesKey components({.name = "Coordinate", .meaning = "Axes, in any order, each with the same value."});
 // Each case sets its unit.
-const ExpressionKey value({.name = "Value", .meaning = "At the reference position x, y, z (m) and the time t (s)."});
+const ExpressionKey value({.name = "Value",
+                           .meaning = "Function of the reference position x, y, z (m) and the time t (s)."});
 
 Section along_axes(const std::string& type, const std::string& unit, const std::string& meaning) {
   Key of_unit = value;
@@ -28,6 +29,10 @@ ConditionPrototype read_initial_velocity(const Values& values, Problems&) {
   return InitialVelocity{.components = values[components], .value = values[value]};
 }
 
+ConditionPrototype read_initial_displacement(const Values& values, Problems&) {
+  return InitialDisplacement{.components = values[components], .value = values[value]};
+}
+
 template <bool is_velocity>
 ConditionPrototype read_prescribed_motion(const Values& values, Problems&) {
   return PrescribedMotion{.components = values[components], .value = values[value], .is_velocity = is_velocity};
@@ -37,20 +42,54 @@ ConditionPrototype read_body_force(const Values& values, Problems&) {
   return BodyForce{.components = values[components], .value = values[value]};
 }
 
-const VectorKey end_normal({.name = "Normal", .meaning = "Of the end's surface, of any length but zero."});
+const VectorKey end_normal({.name = "Normal", .meaning = "Normal of the surface, of any length."});
 
 Section non_reflecting_end() {
-  return {
-      .name = "Non-Reflecting End",
-      .meaning =
-          "Waves leave through the set, one layer of points, as if the body went on behind it: viscous traction "
-          "ρ c v with the speeds of longitudinal and shear waves in the undeformed material. Ends may meet at edges "
-          "and corners.",
-      .keys = {end_normal}};
+  return {.name = "Non-Reflecting End",
+          .meaning =
+              "Waves leave through the node set, one layer of points, as if the body continued: traction ρ c v with "
+              "the initial speeds of longitudinal and shear waves. Ends may meet at edges and corners.",
+          .keys = {end_normal}};
 }
 
 ConditionPrototype read_non_reflecting_end(const Values& values, Problems& problems) {
   return NonReflectingEnd{.normal = read_direction(values, end_normal, problems)};
+}
+
+const RealKey lower_side({.name = "Lower", .unit = "m", .meaning = "Where the lower side is along the axis."});
+const RealKey upper_side({.name = "Upper", .unit = "m", .meaning = "Where the upper side is, one period above."});
+const ExpressionKey stretch(
+    {.name = "Stretch",
+     .unit = "1",
+     .fallback = "1",
+     .meaning = "The distance of the sides at the time t (s) over that of the mesh; its work is external."});
+
+Section periodic_sides() {
+  return {.name = "Periodic Sides",
+          .meaning =
+              "What leaves through one side comes in through the other: all bodies, and contact, go on behind each "
+              "as they are behind the other. Elements end at both. Its reaction is the force through the section "
+              "along the axis, tension positive.",
+          .keys = {components, lower_side, upper_side, stretch}};
+}
+
+ConditionPrototype read_periodic_sides(const Values& values, Problems& problems) {
+  PeriodicSides sides{.lower = values[lower_side], .upper = values[upper_side], .stretch = values[stretch]};
+  const std::vector<int> axes = values[components];
+  if (!axes.empty()) sides.axis = axes.front();
+  if (axes.size() > 1) problems.add(values.path_to(components), "has several axes; expected one: x, y or z");
+  if (!(sides.upper > sides.lower) && values.has(upper_side) && values.has(lower_side)) {
+    problems.add(values.path_to(upper_side),
+                 "'" + to_text(sides.upper) + "'; expected > Lower (" + to_text(sides.lower) + "), in m");
+  }
+  if (sides.stretch.depends_on_place()) {
+    problems.add(values.path_to(stretch),
+                 "'" + sides.stretch.text() + "' depends on x, y or z; expected a number or an expression in t");
+  }
+  const std::string set = values[node_set];
+  if (set != "all")
+    problems.add(values.path_to(node_set), "'" + set + "'; expected all: sides are those of all bodies");
+  return sides;
 }
 
 struct ConditionEntry {
@@ -60,16 +99,22 @@ struct ConditionEntry {
 
 const std::vector<ConditionEntry>& entries() {
   static const std::vector<ConditionEntry> all = {
-      {along_axes("Initial Velocity", "m/s", "The velocity at the initial time."), read_initial_velocity},
-      {along_axes("Prescribed Displacement", "m", "The displacement at every time; with Verlet 0 at the initial one."),
+      {along_axes("Initial Velocity", "m/s", "Velocity at the initial time."), read_initial_velocity},
+      {along_axes(
+           "Initial Displacement", "m",
+           "Displacement at the initial time where nothing holds the points, which begin strained. Only in bodies "
+           "of 'Elastic', whose forces follow from positions alone."),
+       read_initial_displacement},
+      {along_axes("Prescribed Displacement", "m", "Displacement at every time; 0 at the initial time with Verlet."),
        read_prescribed_motion<false>},
-      {along_axes("Prescribed Velocity", "m/s", "The velocity at every time."), read_prescribed_motion<true>},
-      {along_axes("Body Force", "N/m³", "A force per reference volume. Several at a point add up."), read_body_force},
+      {along_axes("Prescribed Velocity", "m/s", "Velocity at every time."), read_prescribed_motion<true>},
+      {along_axes("Body Force", "N/m³", "Force per reference volume. Several at a point add up."), read_body_force},
       {symmetry_plane_section(), read_symmetry_plane},
       {rigid_plane_section(), read_rigid_plane},
       {rigid_cylinder_section(), read_rigid_cylinder},
       {rigid_box_section(), read_rigid_box},
       {non_reflecting_end(), read_non_reflecting_end},
+      {periodic_sides(), read_periodic_sides},
   };
   return all;
 }
@@ -87,16 +132,15 @@ Condition read_condition(const Values& values, Problems& problems) {
 Section conditions_section() {
   const std::string no_temperature = "no heat flows here";
   Key type = {.name = "Type",
-              .meaning = "It decides on further keys.",
-              .hints = {{"Initial Displacement", "bodies start undeformed"},
-                        {"Prescribed Temperature", no_temperature},
+              .meaning = "Kind.",
+              .hints = {{"Prescribed Temperature", no_temperature},
                         {"Initial Temperature", "write it as Blocks > Initial Temperature"},
                         {"Thermal Flux", no_temperature}}};
   Section one = {.name = any_name, .meaning = "One condition.", .keys = {node_set}};
   return {.name = boundary_conditions,
           .meaning =
-              "What is imposed on points, initial conditions included. Two that prescribe a point along the same axis, "
-              "or along axes that are not across each other, must agree.",
+              "Conditions on points, initial conditions included. Two that prescribe the motion of a point along axes "
+              "that are not perpendicular must agree.",
           .any_key = numbered_set(),
           .sections = {with_cases(std::move(one), std::move(type), schemas_of(entries()))}};
 }

@@ -16,17 +16,17 @@ const char* const interactions_name = "Interactions";
 
 const OptionalKey<std::string> first_block(
     {.name = "First Block",
-     .meaning = "A block of the mesh. Without both blocks: all blocks, but for those that other interactions "
-                "name; in the section `General Contact` each with all others, in `Self Contact` each with itself, "
-                "in one of another name both."});
+     .meaning =
+         "A block of the mesh. Without both blocks: all blocks that no other interaction names, in the section "
+         "`General Contact` each with all others, in `Self Contact` each with itself, in one of another name both."});
 
 const OptionalKey<std::string> second_block({.name = "Second Block",
-                                             .meaning = "The other block, or the same: self-contact."});
+                                             .meaning = "The other block, or the same (self-contact)."});
 
 const TextKey model({.name = "Contact Model", .meaning = "A section of Models."});
 
 Section models_section() {
-  Section one{.name = any_name, .required = true, .meaning = "One model of contact.", .keys = contact_law_keys()};
+  Section one{.name = any_name, .required = true, .meaning = "One contact model.", .keys = contact_law_keys()};
   return {.name = models_name,
           .required = true,
           .meaning = "Models by name.",
@@ -36,10 +36,10 @@ Section models_section() {
 Section interactions_section() {
   return {.name = interactions_name,
           .required = true,
-          .meaning = "By any name.",
+          .meaning = "Pairs of blocks, by any name.",
           .sections = {{.name = any_name,
                         .required = true,
-                        .meaning = "Who may touch whom. Bonded points never do.",
+                        .meaning = "One pair. Bonded points never touch.",
                         .keys = {first_block, second_block, model}}}};
 }
 
@@ -74,7 +74,7 @@ Section contact_section() {
   const std::string found = "the program finds out when to search";
   return {
       .name = name,
-      .meaning = "Contact between bodies, and of a body with itself. Without this section there is none.",
+      .meaning = "Contact between bodies, and of a body with itself; none without this section.",
       .keys = {verbose_without_effect(),
                without_effect({.name = "Search Radius", .unit = "m", .range = positive}, found),
                without_effect({.name = "Search Frequency", .kind = Kind::integer, .unit = "steps", .range = {.low = 1}},

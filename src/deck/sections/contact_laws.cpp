@@ -4,22 +4,22 @@ namespace strut::deck {
 
 namespace {
 
-const RealKey radius(
-    {.name = "Contact Radius",
-     .unit = "m",
-     .range = positive,
-     .meaning = "r_c: points that are nearer repel each other. For points that start closer than r_c/0.9, 0.9 of "
-                "their first distance. One spacing is a good choice."});
+const RealKey radius({.name = "Contact Radius",
+                      .unit = "m",
+                      .range = positive,
+                      .meaning = "r_c: points closer than this repel each other; 0.9 of the initial distance for pairs "
+                                 "closer than r_c/0.9 at the start. A good choice is one spacing."});
 
 const RealKey friction(
-    {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb's."});
+    {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb friction."});
 
 const RealKey penalty({.name = "Spring Constant", .unit = "Pa", .range = positive, .meaning = "K_p."});
 
 Section short_range_force() {
-  return {.name = "Short Range Force",
-          .meaning = "f = K_c (r_c − d) V₁ V₂ with K_c = 18 K_p/(π δ⁵), d the distance, δ the horizon.",
-          .keys = {radius, penalty}};
+  return {
+      .name = "Short Range Force",
+      .meaning = "Force between points f = K_c (r_c − d) V₁ V₂, K_c = 18 K_p/(π δ⁵), d the distance, δ the horizon.",
+      .keys = {radius, penalty}};
 }
 
 contact::Law make_penalty(const Values& model) {
@@ -47,22 +47,22 @@ const RealKey stiffness_factor(
     {.name = "Stiffness Factor",
      .range = positive,
      .fallback = "0.25",
-     .meaning = "The stiffness of two faces in contact, in that of a layer of the bodies one spacing thick: under a "
-                "pressure p they overlap by p/(factor M) spacings, M the modulus of longitudinal waves. With 0.25 the "
-                "critical time step is hardly smaller, and a pressure of 0.1 % of M makes 0.4 % of a spacing."});
+     .meaning = "Stiffness over that of a layer one spacing thick: a pressure p makes an overlap of p/(factor M) "
+                "spacings, M the longitudinal modulus. 0.25 hardly changes the critical time step."});
 
-const RealKey largest_overlap({.name = "Largest Overlap",
-                               .unit = "spacings",
-                               .range = {.low = 0, .high = 1},
-                               .fallback = "0.5",
-                               .meaning = "The pressure grows like 1/(1 - overlap/limit), from 0.95 of the limit on "
-                                          "along its tangent. 0: there is no limit."});
+const RealKey largest_overlap(
+    {.name = "Largest Overlap",
+     .unit = "spacings",
+     .range = {.low = 0, .high = 1},
+     .fallback = "0.5",
+     .meaning =
+         "The pressure grows like 1/(1 - overlap/limit), from 0.95 of the limit on along its tangent. 0: no limit."});
 
 Section surface() {
   return {.name = "Surface",
           .meaning =
-              "Smooth surfaces, where the cells of both bodies end; no constant to choose. A body touches where "
-              "the smoothed share of the other one's material around its points exceeds that at a face.",
+              "Contact between smooth surfaces at the faces of the cells, without a constant to choose. It starts when "
+              "the smoothed volume fraction of the other body at a point exceeds its value at a flat face.",
           .keys = {stiffness_factor, largest_overlap}};
 }
 
@@ -85,7 +85,7 @@ const std::vector<Entry>& entries() {
 
 Key contact_law_key() {
   return {.name = "Contact Model",
-          .meaning = "The law; it decides on further keys.",
+          .meaning = "Constitutive law.",
           .hints = {{"Time-Dependent Short Range Force", "there are no coefficients that depend on time"}}};
 }
 

@@ -13,55 +13,44 @@ const char* const name = "Damage Models";
 const OptionalKey<double> critical_stretch(
     {.name = "Critical Stretch",
      .range = positive,
-     .meaning =
-         "s_c: a bond breaks where its length has grown by more than this part. Either this or Fracture Energy."});
+     .meaning = "s_c, relative to the reference length. Either this or Fracture Energy."});
 
 const OptionalKey<double> fracture_energy(
     {.name = "Fracture Energy",
      .unit = "J/m²",
      .range = positive,
-     .meaning =
-         "G_c: s_c is such that a flat cut through the lattice of the block's spacing dissipates it, summed over "
-         "the bonds that it breaks (Influence Function, horizon and moduli as they are)."});
+     .meaning = "G_c of a flat cut through a lattice of the block's spacing; s_c follows."});
 
 const OptionalKey<double> critical_bond_energy(
     {.name = "Critical Bond Energy",
      .unit = "J/m⁶",
      .range = positive,
-     .meaning = "w_c: a bond breaks where it is stretched and holds more energy than this for the volumes of its ends. "
-                "Either this or Fracture Energy."});
+     .meaning = "w_c, energy per volume of either end. Either this or Fracture Energy."});
 
 const OptionalKey<double> separation_energy(
     {.name = "Fracture Energy",
      .unit = "J/m²",
      .range = positive,
-     .meaning =
-         "G_c: w_c is such that a flat cut through the lattice of the block's spacing dissipates it, summed over "
-         "the bonds that it breaks (horizon and moduli as they are)."});
+     .meaning = "G_c of a flat cut through a lattice of the block's spacing; w_c follows."});
 
 const ExpressionKey stretch_over_time({.name = "Time Dependent Critical Stretch",
                                        .range = positive,
-                                       .meaning = "s_c as a function of the time t (s)."});
+                                       .meaning = "s_c(t), t in s."});
 
 const RealKey tearing_energy(
     {.name = "Fracture Energy",
      .unit = "J/m²",
      .range = not_negative,
      .fallback = "0",
-     .meaning = "G_c: what a crack takes for each area, roughly, from where the criterion is met; the "
-                "stress falls meanwhile. With 0 a point fails at once, which dissipates less "
-                "the smaller the spacing."});
+     .meaning = "G_c, dissipated per area of crack (roughly) while the stress falls after the criterion is met. With 0 "
+                "a point fails at once, and the dissipation depends on the spacing."});
 
-const RealKey failure_strain({.name = "Failure Strain",
-                              .range = positive,
-                              .meaning = "ε_f, an equivalent plastic strain."});
+const RealKey failure_strain({.name = "Failure Strain", .range = positive, .meaning = "ε_f."});
 
 const RealKey d1({.name = "D1", .meaning = "D₁ of ε_f = (D₁ + D₂ exp(D₃ σ*)) (1 + D₄ ln max(ε̇/ε̇₀, 1))."});
 const RealKey d2({.name = "D2", .range = not_negative, .meaning = "D₂."});
-const RealKey d3({.name = "D3",
-                  .range = {.high = 0},
-                  .meaning = "D₃, not positive: a metal tears earlier in tension."});
-const RealKey d5({.name = "D5", .fallback = "0", .meaning = "D₅ of the further factor 1 + D₅ T*."});
+const RealKey d3({.name = "D3", .range = {.high = 0}, .meaning = "D₃."});
+const RealKey d5({.name = "D5", .fallback = "0", .meaning = "D₅ of the factor 1 + D₅ T*."});
 const RealKey d4({.name = "D4", .range = not_negative, .fallback = "0", .meaning = "D₄."});
 const RealKey room({.name = "Reference Temperature",
                     .unit = "K",
@@ -136,34 +125,29 @@ struct ModelEntry {
 const std::vector<ModelEntry>& entries() {
   static const std::vector<ModelEntry> all = {
       {{.name = "Critical Stretch",
-        .meaning =
-            "A bond breaks, for both of its ends, where it is stretched too far; of bonds between two blocks the "
-            "lesser s_c counts.",
+        .meaning = "A bond breaks where its stretch exceeds s_c, between two blocks the lesser s_c.",
         .keys = {critical_stretch, fracture_energy}},
        read_critical_stretch},
       {{.name = "Time Dependent Critical Stretch",
-        .meaning = "The same, with an s_c that changes.",
+        .meaning = "The same with s_c as a function of time.",
         .keys = {stretch_over_time}},
        read_stretch_over_time},
       {{.name = "Bond Energy",
-        .meaning =
-            "The same where the bond is stretched and holds too much energy (Foster, Silling and Chen 2011). For "
-            "ordinary solids (Elastic), as all blocks of the body must be.",
+        .meaning = "A stretched bond breaks where its energy exceeds w_c (Foster, Silling and Chen 2011). All blocks "
+                   "of the body must be ordinary solids (Elastic).",
         .keys = {critical_bond_energy, separation_energy}},
        read_bond_energy},
       {{.name = "Plastic Strain",
-        .meaning =
-            "A point of a block whose metal flows (J2) fails where its plastic strain reaches ε_f, and all of its "
-            "bonds break.",
+        .meaning = "A point of a J2 metal fails, and all its bonds break, where its plastic strain reaches ε_f.",
         .keys = {failure_strain, tearing_energy}},
        [](const Values& v, Problems&) { return ductile(materials::FailureStrain{v[failure_strain]}, v); }},
       {{.name = "Johnson-Cook",
-        .meaning = "The same where ∫ dε̄/ε_f = 1 with the ε_f of Johnson and Cook (1985); σ* is the "
-                   "mean stress over von Mises', 1.5 at most.",
+        .meaning = "The same where ∫ dε̄/ε_f = 1 with ε_f of Johnson and Cook (1985); σ* is the mean stress over the "
+                   "von Mises stress, at most 1.5.",
         .keys = {d1, d2, d3, d4, d5, reference_rate, room, melting, tearing_energy}},
        read_johnson_cook},
       {{.name = "Cockcroft-Latham",
-        .meaning = "The same where the plastic work of the largest principal stress in tension reaches W_c.",
+        .meaning = "The same where the plastic work of the largest tensile principal stress reaches W_c.",
         .keys = {critical_work, tearing_energy}},
        [](const Values& v, Problems&) { return ductile(materials::CockcroftLatham{v[critical_work]}, v); }}};
   return all;
@@ -177,10 +161,9 @@ Section damage_models_section() {
               .meaning = "One model.",
               .hints = {{"Thermal Expansion Coefficient", "unknown key; there is no thermal expansion here"}}};
   return {.name = name,
-          .meaning = "When the bonds of a block break, or its points fail (Blocks > Damage Model).",
-          .sections = {with_cases(std::move(one),
-                                  {.name = "Damage Model", .meaning = "The criterion; it decides on further keys."},
-                                  schemas_of(entries()))}};
+          .meaning = "Criteria for breaking bonds or failing points (Blocks > Damage Model).",
+          .sections = {
+              with_cases(std::move(one), {.name = "Damage Model", .meaning = "Criterion."}, schemas_of(entries()))}};
 }
 
 std::vector<NamedDamageModel> read_damage_models(const Values& deck, Problems& problems) {

@@ -23,23 +23,28 @@ struct AxisKeys {
   IntegerKey points;
 
   explicit AxisKeys(const std::string& axis)
-      : origin({.name = axis + " Origin", .unit = "m", .meaning = "Where the block begins."}),
-        length({.name = axis + " Length", .unit = "m", .range = positive, .meaning = "Its edge."}),
-        points({.name = "Number Points " + axis, .range = {.low = 1}, .meaning = "Cells along it."}) {}
+      : origin({.name = axis + " Origin", .unit = "m", .meaning = "Lower end of the grid."}),
+        length({.name = axis + " Length", .unit = "m", .range = positive, .meaning = "Length of the grid."}),
+        points({.name = "Number Points " + axis, .range = {.low = 1}, .meaning = "Number of cells."}) {}
 };
 const std::array<AxisKeys, 3> axes = {AxisKeys("X"), AxisKeys("Y"), AxisKeys("Z")};
 
 Section grid_section() {
   std::vector<Key> keys = {
-      {.name = "Type", .kind = Kind::choice, .choices = {"PdQuickGrid"}, .meaning = "The only one."}};
+      {.name = "Type", .kind = Kind::choice, .choices = {"PdQuickGrid"}, .meaning = "The only choice."}};
   for (const AxisKeys& axis : axes) keys.insert(keys.end(), {axis.origin, axis.length, axis.points});
   return {.name = generator,
-          .meaning = "A block of equal cells, one point at the center of each, x fastest: the block block_1.",
+          .meaning = "Grid of equal cells with a point in the center of each, x fastest; the block block_1.",
           .keys = std::move(keys)};
 }
 
-Grid read_grid(const Values& values) {
-  Grid grid;
+bool are_boxes(const Values& values) {
+  const auto* kind = std::get_if<std::string>(values.value("NeighborhoodType"));
+  return kind && *kind == "Box";
+}
+
+Grid read_grid(const Values& values, bool boxes) {
+  Grid grid{.boxes = boxes};
   for (int c = 0; c < 3; ++c) {
     grid.origin[c] = values[axes[c].origin];
     grid.length[c] = values[axes[c].length];
@@ -50,28 +55,28 @@ Grid read_grid(const Values& values) {
 
 const ChoiceKey<MeshType> type(
     {.name = "Type",
-     .meaning = "The mesh file's format: elements or nodes become points, or a list of points. Or Peridigm's "
-                "built-in grid, without a file. `Memory`: the mesh that a script in Python hands over."},
+     .meaning = "Format of the mesh file (`Text File`: a list of points), Peridigm's built-in grid, without a file, or "
+                "`Memory`: the mesh that a script in Python hands over."},
     {{"Exodus", MeshType::exodus},
      {"Text File", MeshType::text},
      {"PdQuickGrid", MeshType::grid},
      {"Memory", MeshType::memory}});
 
 const OptionalKey<std::string> mesh_file(
-    {.name = "Input Mesh File",
-     .meaning = "Its path, relative to the deck's folder. Required for Exodus and Text File."});
+    {.name = "Input Mesh File", .meaning = "Path relative to the deck's folder. Required for Exodus and Text File."});
 
 const Key neighborhood = {.name = "NeighborhoodType",
                           .kind = Kind::choice,
-                          .choices = {"Spherical"},
-                          .meaning = "Required for PdQuickGrid: without it, Peridigm takes boxes for neighborhoods."};
+                          .choices = {"Spherical", "Box"},
+                          .meaning =
+                              "Required for PdQuickGrid: points within the horizon; or, as in Peridigm without "
+                              "this key, a box of cells, along each axis as many as the horizon has, rounded."};
 
 const ChoiceKey<Points> points(
     {.name = "Points",
      .fallback = "Elements",
-     .meaning = "Where the points of an Exodus mesh are: at the centroids of its elements, or, for hexahedra "
-                "and tetrahedra, at its nodes, each with its part of the elements around it. With nodes, "
-                "faces and rims of the body are where the mesh has them."},
+     .meaning = "Position of the points: centroids of the elements, or nodes (hexahedra and tetrahedra), each with its "
+                "part of the elements around it. Nodes represent faces and edges of the body exactly."},
     {{"Elements", Points::elements}, {"Nodes", Points::nodes}});
 
 const ChoiceKey<Influence> influence(
@@ -83,16 +88,14 @@ const ChoiceKey<Influence> influence(
 const ChoiceKey<DegeneratePoints> degenerate(
     {.name = "Degenerate Points",
      .fallback = "Error",
-     .meaning = "What to do with points that have too few neighbors, or coplanar ones, for a deformation "
-                "gradient. `Drop` leaves them out if they, and what is cut off without them, are 1 % of all "
-                "points at most; `Drop Any` goes on with whatever is left."},
-    {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}, {"Drop Any", DegeneratePoints::drop_any}});
-
-const BooleanKey trial_reads(
-    {.name = "Trial Reads",
-     .fallback = "true",
-     .meaning = "A mesh in HDF5 is read by a copy of the process first, which a damaged file may "
-                "crash. `false`: no process is forked, which some networks under MPI forbid."});
+     .meaning = "Treatment of points whose neighbors are too few, or coplanar, for a deformation gradient. `Drop` "
+                "removes them, and pieces that they alone connect, up to 1 % of all points; `Drop Any` has no limit. "
+                "`Keep` leaves points of 'Elastic' without neighbors as masses that loads and contact move (in "
+                "Peridigm's decks without this key); others are an error."},
+    {{"Error", DegeneratePoints::error},
+     {"Drop", DegeneratePoints::drop},
+     {"Drop Any", DegeneratePoints::drop_any},
+     {"Keep", DegeneratePoints::keep}});
 
 // Checks the keys that each type of discretization needs, and those that it cannot have.
 void check_source(const Values& values, Problems& problems) {
@@ -108,9 +111,7 @@ void check_source(const Values& values, Problems& problems) {
   if (grid && !values.has_section(generator)) report(generator, "missing section (the only grid that is known here)");
   if (!grid && values.has_section(generator)) report(generator, "unknown section; it belongs to Type 'PdQuickGrid'");
   if (grid && !values.given(neighborhood)) {
-    report(
-        neighborhood.name,
-        "missing; expected 'Spherical': without it Peridigm takes boxes for neighborhoods, which are not known here");
+    report(neighborhood.name, "missing; expected 'Spherical', or 'Box' for what Peridigm takes without this key");
   }
 }
 
@@ -119,13 +120,14 @@ void check_source(const Values& values, Problems& problems) {
 Section discretization_section() {
   return {.name = name,
           .required = true,
-          .meaning = "The points: where they are, and how much each sees of the others.",
+          .meaning = "The material points and their neighborhoods.",
           .keys = {type, mesh_file, neighborhood, verbose_without_effect(),
                    without_effect({.name = "Store Exodus Mesh", .kind = Kind::boolean, .fallback = "false"},
                                   "the mesh is not kept"),
-                   points, influence, degenerate, trial_reads},
+                   points, influence, degenerate},
           .sections = {grid_section(), bond_filters_section()},
-          .hints = {{"Horizon", "unknown key; it belongs to the sections of Blocks"}}};
+          .hints = {{"Horizon", "unknown key; it belongs to the sections of Blocks"},
+                    {"Trial Reads", "unknown key; leave it out: no file is read by a forked process any more"}}};
 }
 
 Discretization read_discretization(const Values& deck, const fs::path& deck_file, Problems& problems) {
@@ -139,11 +141,10 @@ Discretization read_discretization(const Values& deck, const fs::path& deck_file
   const auto mesh = values[mesh_file];
   return {.type = values[type],
           .mesh = mesh ? deck_file.parent_path() / *mesh : fs::path(),
-          .grid = read_grid(values.section(generator)),
+          .grid = read_grid(values.section(generator), are_boxes(values)),
           .points = values[points],
           .influence = values[influence],
           .degenerate = values[degenerate],
-          .trial_reads = values[trial_reads],
           .cracks = read_bond_filters(values, problems)};
 }
 

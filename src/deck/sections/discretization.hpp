@@ -14,12 +14,13 @@ namespace strut::deck {
 
 enum class MeshType { exodus, text, grid, memory };  // memory: from the program that runs the deck
 enum class Points { elements, nodes };
-enum class DegeneratePoints { error, drop, drop_any };
+enum class DegeneratePoints { error, drop, drop_any, keep };
 
 // Equal cells, with a point at the center of each, x fastest.
 struct Grid {
   Vector origin = Vector::Zero(), length = Vector::Ones();  // m
   std::array<int, 3> points = {1, 1, 1};
+  bool boxes = false;  // families are boxes of cells, as in Peridigm without a NeighborhoodType
 };
 
 struct Discretization {
@@ -29,7 +30,6 @@ struct Discretization {
   Points points{};             // position of the points; nodes: of Exodus meshes only
   Influence influence{};
   DegeneratePoints degenerate{};
-  bool trial_reads{};         // of a mesh in HDF5, by a child process
   std::vector<Crack> cracks;  // no bond crosses these
 };
 

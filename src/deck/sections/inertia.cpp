@@ -7,9 +7,11 @@ namespace strut::deck {
 
 void check_quasi_static(const Solver& solver, const std::vector<Condition>& conditions,
                         const std::vector<ContactModel>& contact_models, const std::vector<Block>& blocks,
-                        Problems& problems) {
+                        bool steps_follow, Problems& problems) {
   if (!solver.quasi_static) return;
   for (const Condition& condition : conditions) {
+    if (steps_follow && !std::holds_alternative<InitialDisplacement>(condition.kind)) continue;
+    if (problems.about("Boundary Conditions > " + condition.name + " > Type")) continue;  // a type that there is not
     const auto check = [&]<class Type>(const Type&) {
       if constexpr (Type::in_equilibria == InEquilibria::impossible) {
         problems.add("Boundary Conditions > " + condition.name + " > Type", Type::why_not_in_equilibria);
@@ -30,9 +32,24 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
                      "friction is that of surfaces, rigid planes and tools");
   }
   for (const Block& block : blocks) {
-    if (!block.damage_model) continue;
+    if (!block.damage_model || steps_follow) continue;
     problems.add("Blocks > " + block.name + " > Damage Model",
                  "bonds cannot break with Solver > QuasiStatic; expected explicit steps (Verlet)");
+  }
+}
+
+void check_initial_strains(const std::vector<Condition>& conditions, const std::vector<Material>& materials,
+                           Problems& problems) {
+  for (const Material& material : materials) {
+    if (material.formulation == Formulation::ordinary) continue;
+    for (const Condition& condition : conditions) {
+      if (!std::holds_alternative<InitialDisplacement>(condition.kind)) continue;
+      problems.add(
+          "Boundary Conditions > " + condition.name + " > Type",
+          "'Initial Displacement' beside material '" + material.name +
+              "', whose stress follows from rates and would begin with 0 though the body is strained; expected "
+              "'Elastic' in all materials");
+    }
   }
 }
 

@@ -1,4 +1,4 @@
-// Keys without a meaning in equilibria, which have no inertia.
+// Keys without a meaning in equilibria, which have no inertia, or for a law of rates, which has no strain at the start.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,12 @@
 
 namespace strut::deck {
 
+// `steps_follow`: explicit steps follow the equilibria, and what needs inertia begins there.
 void check_quasi_static(const Solver& solver, const std::vector<Condition>& conditions,
                         const std::vector<ContactModel>& contact_models, const std::vector<Block>& blocks,
-                        Problems& problems);
+                        bool steps_follow, Problems& problems);
+
+void check_initial_strains(const std::vector<Condition>& conditions, const std::vector<Material>& materials,
+                           Problems& problems);
 
 }  // namespace strut::deck

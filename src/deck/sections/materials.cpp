@@ -15,11 +15,10 @@ const char* const name = "Materials";
 const ChoiceKey<Formulation> formulation(
     {.name = "Formulation",
      .fallback = "Correspondence",
-     .meaning = "How the deformation gradient is found: one for each point (Silling et al. 2007), or one "
-                "that is linear over the cell of each point, with the stress at four places of it. The "
-                "second is for struts and plates a few points thick; it has no zero-energy modes and "
-                "no stabilization. Its families are those of the mesh: elements that share a node, nodes "
-                "that share an element."},
+     .meaning =
+         "Deformation gradient: constant at a point (Silling et al. 2007), or linear over the cell of the point, with "
+         "stress at four integration points. Quadratic is for struts and plates a few points thick; it needs no "
+         "stabilization, and its neighbors are elements that share a node, or nodes that share an element."},
     {{"Correspondence", Formulation::correspondence}, {"Quadratic Correspondence", Formulation::quadratic}});
 
 // The stabilizations by name.
@@ -33,25 +32,24 @@ const ChoiceKey<Stabilization> stabilization(
     {.name = "Stabilization",
      .fallback = "Mean Gradient",
      .meaning = "Resists zero-energy modes: a spring in each bond on the part of its deformation that the mean "
-                "deformation gradient of both ends, or (Silling) each end's own, does not represent."},
+                "deformation gradient of both ends (Silling: of each end) does not represent."},
     stabilizations());
 
 const OptionalKey<double> stabilization_coefficient(
     {.name = "Stabilization Coefficient",
      .range = not_negative,
-     .meaning = "Its strength in units of (λ + 2μ)/(tr K/3), with the shape tensor K: the same for "
-                "every influence function and horizon. Without it 0.01, and 0.3 in blocks whose bonds break by their "
-                "stretch. Not Peridigm's Hourglass Coefficient."});
+     .meaning = "Stiffness of the springs in units of (λ + 2μ)/(tr K/3), K the shape tensor. Default 0.01; 0.3 in "
+                "blocks whose bonds break by stretch. It is not Peridigm's Hourglass Coefficient."});
 
 const RealKey linear_viscosity(
     {.name = "Linear Viscosity",
      .range = not_negative,
      .fallback = "0",
-     .meaning = "b₁ of the artificial viscosity, which spreads shocks over some points: where the volume "
-                "shrinks at the rate D, a pressure ρ l |D| (b₁ c + b₂² l |D|). 0.06 is usual."});
+     .meaning = "b₁ of the artificial viscosity, which spreads shocks over some points: a pressure ρ l |D| (b₁ c + b₂² "
+                "l |D|) where the volume shrinks at the rate D. Usual: 0.06."});
 
 const RealKey quadratic_viscosity(
-    {.name = "Quadratic Viscosity", .range = not_negative, .fallback = "0", .meaning = "b₂. 1.2 is usual."});
+    {.name = "Quadratic Viscosity", .range = not_negative, .fallback = "0", .meaning = "b₂. Usual: 1.2."});
 
 void check_needs_no_stabilization(const Values& values, Problems& problems) {
   for (const Key& key : {Key(stabilization), Key(stabilization_coefficient)}) {
@@ -88,7 +86,7 @@ std::vector<Section> cases() {
 Key model() {
   const std::string power_laws = "its power laws are those of 'Elastic Plastic Correspondence', Hardening and Rate";
   return {.name = "Material Model",
-          .meaning = "The law; it decides on further keys.",
+          .meaning = "Constitutive law.",
           .hints = {{"Elastic Plastic", "did you mean 'Elastic Plastic Correspondence'?"},
                     {"Viscoplastic Needleman Correspondence",
                      "did you mean 'Elastic Plastic Correspondence'? " + power_laws}}};

@@ -9,14 +9,12 @@ namespace {
 
 const char* const name = "Node Sets";
 
-const AnyKey<Function> where("The points at whose reference position (m) this is not zero, e.g. `z &lt; 1e-3`.");
+const AnyKey<Function> where("Points at whose reference position (m) the expression is not zero, e.g. `z &lt; 1e-3`.");
 
 }  // namespace
 
 Section node_sets_section() {
-  return {.name = name,
-          .meaning = "Sets of points besides those of the mesh; each key is the name of one.",
-          .any_key = where};
+  return {.name = name, .meaning = "Additional sets of points; each key is the name of one.", .any_key = where};
 }
 
 std::vector<NodeSet> read_node_sets(const Values& deck, Problems& problems) {

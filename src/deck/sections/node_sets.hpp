@@ -12,14 +12,14 @@
 
 namespace strut::deck {
 
-// A node set of the deck: the points whose reference position makes `where` nonzero, those with these numbers, or the
-// one nearest to a place.
+// A node set of the deck: the points whose reference position makes `where` nonzero, or those with these numbers, or
+// the one that is nearest to a place.
 struct NodeSet {
   std::string name;
   Function where;
   std::optional<std::vector<int>> numbers = {};  // of elements or points, from 1, ascending, each once
-  std::filesystem::path file = {};               // file that they were read from, if any
   std::optional<Vector> nearest = {};            // m
+  std::filesystem::path file = {};               // file that they were read from, if any
 };
 
 Section node_sets_section();

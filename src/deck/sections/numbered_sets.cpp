@@ -14,9 +14,16 @@ namespace {
 namespace fs = std::filesystem;
 
 const AnyKey<std::string> numbers_or_file(
-    "A set of points as Peridigm writes it: the name holds `Node Set`, the value is the "
-    "numbers of elements (of points of a text file or grid) from 1, `1 4 7`, or the "
-    "name of a file of them, relative to the deck's folder.");
+    "A set of points in Peridigm's form: the name holds `Node Set`, the value is the numbers of elements (of points of "
+    "a text file or grid) from 1, `1 4 7`, a file of them, relative to the deck's folder, or `nearest 0 0 0.1`, the "
+    "point nearest to a position (m).");
+
+// The place in "nearest x y z".
+std::optional<Vector> nearest_place(const std::string& text) {
+  const std::string word = "nearest ";
+  const auto numbers = text.starts_with(word) ? to_reals(text.substr(word.size())) : std::nullopt;
+  return numbers && numbers->size() == 3 ? std::optional<Vector>(Vector(numbers->data())) : std::nullopt;
+}
 
 std::optional<std::vector<int>> numbers_in(const std::string& text) {
   std::vector<int> numbers;
@@ -30,11 +37,12 @@ std::optional<std::vector<int>> numbers_in(const std::string& text) {
   return numbers;
 }
 
-// Lines that begin with #, / or * are comments.
+// Lines that begin with #, / or * are comments, and PeriLab's that begins with "header:".
 std::string without_comments(std::istream& file) {
   std::string text, line;
   while (std::getline(file, line)) {
     const std::string_view content = trimmed(line);
+    if (content.starts_with("header:")) continue;
     if (!content.empty() && std::string_view("#/*").find(content[0]) == std::string_view::npos) text += line + " ";
   }
   return text;
@@ -55,7 +63,8 @@ void add_numbered_sets(const Values& deck, const fs::path& deck_file, std::vecto
     NodeSet set;
     set.name = name;
     set.numbers = numbers.value_or(std::vector<int>());
-    if (!numbers) set.file = deck_file.parent_path() / text;
+    set.nearest = nearest_place(text);
+    if (!numbers && !set.nearest) set.file = deck_file.parent_path() / text;
     sets.push_back(set);
   }
 }

@@ -17,18 +17,18 @@ const Key file_type = {.name = "Output File Type",
                        .meaning = "The format."};
 
 const TextKey file({.name = "Output Filename",
-                    .meaning = "Relative to the working folder; `.e` is appended if it has no suffix."});
+                    .meaning = "Path relative to the working folder; `.e` is appended to a name without suffix."});
 
 const WhenKeys when("Output ", 20);
 
-const AnyKey<bool> variable("A field, e.g. `Displacement`. All of them: inputs/VARIABLES.md.");
-const Section variables = {.name = "Output Variables", .meaning = "The fields to write.", .any_key = variable};
+const AnyKey<bool> variable("A field of inputs/VARIABLES.md, e.g. `Displacement`.");
+const Section variables = {.name = "Output Variables", .meaning = "Fields to write.", .any_key = variable};
 
 }  // namespace
 
 Section output_section() {
   return {.name = name,
-          .meaning = "The fields of the points in time. Without this section there are none.",
+          .meaning = "Fields of the points in time; none without this section.",
           .keys = {file_type, file, when.frequency, when.interval,
                    without_effect({.name = "Output Format", .kind = Kind::text, .fallback = "BINARY"},
                                   "an Exodus file is binary"),

@@ -8,12 +8,11 @@ namespace {
 
 const char* const name = "Restart";
 
-const BooleanKey enabled({.name = "Enabled", .fallback = "true", .meaning = "False: none is written."});
+const BooleanKey enabled({.name = "Enabled", .fallback = "true", .meaning = "false: no checkpoint is written."});
 
-const OptionalKey<std::string> file(
-    {.name = "Filename",
-     .meaning = "Relative to the working folder. Where it is not given: the deck's name with the "
-                "suffix `.restart`. The one before stays beside it, as `.old`."});
+const OptionalKey<std::string> file({.name = "Filename",
+                                     .meaning = "Path relative to the working folder. Default: the deck's name with "
+                                                "the suffix `.restart`. The previous one is kept as `.old`."});
 
 const WhenKeys when;
 
@@ -21,24 +20,23 @@ const RealKey minutes({.name = "Minutes",
                        .unit = "min",
                        .range = positive,
                        .fallback = "30",
-                       .meaning = "And every so many minutes of computing."});
+                       .meaning = "Computing time between checkpoints, in addition."});
 
 const BooleanKey resumes(
     {.name = "Restart",
      .fallback = "false",
-     .meaning = "Peridigm's. True: where there is a checkpoint already, a run that would begin "
-                "anew and replace it is refused (`strut --continue deck.xml` goes on from it), and "
-                "so is one without a checkpoint whose Initial Time is not 0."});
+     .meaning = "Peridigm's key. true: a run that would replace a checkpoint is refused (`strut --continue deck.xml` "
+                "resumes from it), and so is one without a checkpoint whose Initial Time is not 0."});
 
 }  // namespace
 
 Section restart_section() {
   return {.name = name,
           .meaning =
-              "Checkpoints, from which `strut --continue deck.xml` resumes a run on any number of ranks. One is "
-              "written at these times and when a signal ends the run. With this section one is also written at "
-              "the end, so that the final time can be put off; without it, every " +
-              *minutes.fallback + " minutes, and removed at the end.",
+              "Checkpoints, from which `strut --continue deck.xml` resumes a run on any number of ranks. They are "
+              "written at these times, at a signal, and at the end, so that the final time can be extended. Without "
+              "this section: every " +
+              *minutes.fallback + " minutes, removed at the end.",
           .keys = {enabled, file, when.frequency, when.interval, minutes, resumes}};
 }
 

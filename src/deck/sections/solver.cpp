@@ -9,35 +9,36 @@ namespace strut::deck {
 namespace {
 
 const char* const name = "Solver";
+const char* const next_name = "Solver 2";
 const char* const own_solver = "equilibria are found in another way";
 
 const ChoiceKey<bool> with_tangent(
     {.name = "Method",
      .fallback = "Newton",
-     .meaning = "How an equilibrium is found: with the tangent, or by damped motion without it. Newton "
-                "falls back on the other where it fails."},
+     .meaning =
+         "Newton's method with the tangent, or damped motion without it. Where Newton fails, the other continues."},
     {{"Newton", true}, {"Dynamic Relaxation", false}});
 
 const IntegerKey load_steps({.name = "Number of Load Steps",
                              .range = {.low = 1},
                              .fallback = "10",
-                             .meaning = "Of equal length. One that finds no equilibrium is cut in halves."});
+                             .meaning = "Number of equal load steps. A step without equilibrium is halved."});
 
 const RealKey tolerance({.name = "Tolerance",
                          .range = {.low = 0, .high = 1, .with_low = false, .with_high = false},
                          .fallback = "1e-6",
-                         .meaning = "The forces that may be left, as a part of reactions, loads and contact."});
+                         .meaning = "Largest residual force over reactions, loads and contact forces."});
 
 const IntegerKey most_iterations({.name = "Maximum Solver Iterations",
                                   .range = {.low = 1},
                                   .fallback = "20",
-                                  .meaning = "Newton's, of one load step, before it is cut."});
+                                  .meaning = "Newton iterations of a load step before it is halved."});
 
 Section quasi_static_section() {
   return {.name = "QuasiStatic",
           .meaning =
-              "Slow loading in the place of Verlet: a series of equilibria, without inertia. Times are those of "
-              "the conditions; rates follow from them.",
+              "A series of equilibria without inertia, instead of Verlet. Strain rates follow from the times of the "
+              "conditions.",
           .keys = {with_tangent, load_steps, tolerance, most_iterations,
                    without_effect({.name = "Absolute Tolerance", .range = positive},
                                   "what may be left is a part of the forces that act: Tolerance"),
@@ -58,60 +59,62 @@ QuasiStatic read_quasi_static(const Values& values) {
 }
 
 const OptionalKey<double> fixed_dt(
-    {.name = "Fixed dt", .unit = "s", .range = positive, .meaning = "The same step always."});
+    {.name = "Fixed dt", .unit = "s", .range = positive, .meaning = "Constant time step."});
 
 const RealKey safety_factor(
     {.name = "Safety Factor",
      .range = {.low = 0, .high = 1, .with_low = false},
      .fallback = "0.8",
-     .meaning = "Time step as a fraction of the critical time step, which follows the deformation; it is "
-                "kept until it is 1.05 times as much."});
+     .meaning = "Time step as a fraction of the critical time step, which follows the deformation; a step is kept "
+                "until this fraction exceeds 1.05 times the factor."});
 
 const BooleanKey subcycling(
     {.name = "Subcycling",
      .fallback = "true",
-     .meaning = "Points that limit the time step are subcycled: they take smaller steps of their own. "
-                "None do with a fixed step."});
+     .meaning = "Points that limit the time step take smaller steps of their own (not with a fixed step)."});
 
 const OptionalKey<double> scaled_dt(
     {.name = "Mass Scaling dt",
      .unit = "s",
      .range = positive,
-     .meaning = "Mass scaling: the points that would make the first step shorter get mass until it is so long; the run "
-                "tells how much. Contact and deformation may make it shorter later."});
+     .meaning = "Mass scaling: points that would make the first step shorter get additional mass, which the run "
+                "reports. Contact and deformation may shorten later steps."});
 
 const RealKey most_added_mass({.name = "Most Added Mass",
                                .range = {.low = 0, .with_low = false},
                                .fallback = "0.05",
-                               .meaning = "With mass scaling: of the whole mass; more is an error."});
+                               .meaning = "Limit of the additional mass over the whole mass; more is an error."});
 
-const RealKey rebalance(
-    {.name = "Rebalance",
-     .range = {.low = 1, .with_low = false},
-     .fallback = "1.3",
-     .meaning = "On several ranks: where the one with most work has more than so many times the mean, and the rest of "
-                "the run is worth it, points are spread over the ranks anew. Fields keep their bits. 1e9: never."});
+const RealKey rebalance({.name = "Rebalance",
+                         .range = {.low = 1, .with_low = false},
+                         .fallback = "1.3",
+                         .meaning = "A new partition is made where the largest work of a rank exceeds this multiple of "
+                                    "the mean and the remaining run is worth it. Fields keep their bits. 1e9: never."});
 
 const Section verlet = {.name = "Verlet",
-                        .meaning = "Explicit steps by central differences: a fixed step or a safety factor, not both.",
+                        .meaning = "Explicit steps by central differences, with a fixed step or a safety factor.",
                         .keys = {fixed_dt, safety_factor, subcycling, scaled_dt, most_added_mass, rebalance}};
 
 const BooleanKey verbose(
     {.name = "Verbose",
      .fallback = "false",
-     .meaning = "With QuasiStatic, each iteration is told; on several ranks with Verlet, how evenly "
-                "they share the work, every 100 steps."});
+     .meaning = "Prints each iteration (QuasiStatic), or the load balance of several ranks every 100 steps (Verlet)."});
 
-const RealKey initial_time({.name = "Initial Time", .unit = "s", .fallback = "0", .meaning = "When the run begins."});
+const RealKey initial_time({.name = "Initial Time", .unit = "s", .fallback = "0", .meaning = "Begin of the run."});
 
-const RealKey final_time({.name = "Final Time", .unit = "s", .meaning = "When it ends: after the initial time."});
+const RealKey final_time({.name = "Final Time", .unit = "s", .meaning = "End of the run."});
 
 const OptionalKey<double> wall_time(
     {.name = "Wall Time",
      .unit = "s",
      .range = positive,
-     .meaning = "After so long, set-up included, the run ends as by a signal: with a checkpoint, a last frame and the "
-                "exit status 3. A job's limit, less what a step, a frame and a checkpoint take."});
+     .meaning = "After this time, set-up included, the run ends with a checkpoint, a last frame and the exit status 3. "
+                "Choose the limit of the job less the time of a step, a frame and a checkpoint."});
+
+const BooleanKey keeps_velocities(
+    {.name = "Keep Velocities",
+     .fallback = "false",
+     .meaning = "true: points begin with the velocities of the last load step, as in Peridigm; else at rest."});
 
 void check_times(const Values& values, Problems& problems) {
   if (!values.has(initial_time) || !values.has(final_time)) return;
@@ -126,7 +129,7 @@ void check_times(const Values& values, Problems& problems) {
 Section solver_section() {
   return {.name = name,
           .required = true,
-          .meaning = "The time that is simulated, and its steps.",
+          .meaning = "Simulated time and its steps.",
           .keys = {verbose, without_effect({.name = "Peridigm Preconditioner", .kind = Kind::text}, own_solver),
                    without_effect({.name = "Finite Difference Probe Length", .range = positive}, own_solver),
                    initial_time, final_time, wall_time},
@@ -134,8 +137,9 @@ Section solver_section() {
           .hints = {{"Implicit", "unknown section; there are 'Verlet', and 'QuasiStatic' for loads without inertia"}}};
 }
 
-Solver read_solver(const Values& deck, Problems& problems) {
-  const Values& values = deck.section(name);
+namespace {
+
+Solver read_one(const Values& values, Problems& problems) {
   const Values& steps = values.section(verlet.name);
   Solver solver{.initial_time = values[initial_time],
                 .final_time = values[final_time],
@@ -157,6 +161,46 @@ Solver read_solver(const Values& deck, Problems& problems) {
   check_one_of(steps, fixed_dt, scaled_dt, problems);
   check_times(values, problems);
   return solver;
+}
+
+}  // namespace
+
+Section next_solver_section() {
+  Section section = solver_section();
+  section.name = next_name;
+  section.required = false;
+  section.meaning =
+      "Explicit steps that go on where the equilibria of Solver end: a body that is loaded slowly, then struck. "
+      "Conditions act in both, but for those that need inertia (initial velocities, tools with a mass, non-reflecting "
+      "ends), which begin here; so do bonds to break.";
+  section.keys.push_back(keeps_velocities);
+  return section;
+}
+
+Solver read_solver(const Values& deck, Problems& problems) { return read_one(deck.section(name), problems); }
+
+std::optional<Solver> read_next_solver(const Values& deck, const Solver& first, Problems& problems) {
+  if (!deck.has_section(next_name)) return std::nullopt;
+  const Values& values = deck.section(next_name);
+  Solver next = read_one(values, problems);
+  next.keeps_velocities = values[keeps_velocities];
+  if (!values.given(initial_time)) next.initial_time = first.final_time;
+  if (!first.quasi_static || next.quasi_static) {
+    problems.add(next_name,
+                 "expected explicit steps (Verlet) after equilibria (Solver > QuasiStatic): no other solvers "
+                 "follow each other in one deck");
+  }
+  if (next.initial_time != first.final_time) {
+    problems.add(values.path_to(initial_time), "'" + to_text(next.initial_time) +
+                                                   "'; expected the Final Time of Solver (" +
+                                                   to_text(first.final_time) + "), in s, or no such key");
+  }
+  if (next.scaled_dt) {
+    problems.add(values.section(verlet.name).path_to(scaled_dt),
+                 "given; expected none: masses are scaled from the start "
+                 "or not at all");
+  }
+  return next;
 }
 
 }  // namespace strut::deck

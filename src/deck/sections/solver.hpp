@@ -25,12 +25,16 @@ struct Solver {
   bool subcycling{};
   std::optional<double> scaled_dt;  // s; the step that mass scaling aims at
   double most_added_mass{};         // by mass scaling, relative to the whole mass
+  bool keeps_velocities{};          // of a second solver: of the last load step before it; else bodies begin at rest
   double rebalance{};               // largest work of a rank over the mean: above it the partition is made anew
 
   double duration() const { return final_time - initial_time; }
 };
 
 Section solver_section();
+Section next_solver_section();
 Solver read_solver(const Values& deck, Problems& problems);
+// The section "Solver 2", explicit steps after equilibria; nullopt without it.
+std::optional<Solver> read_next_solver(const Values& deck, const Solver& first, Problems& problems);
 
 }  // namespace strut::deck

@@ -9,34 +9,35 @@ namespace strut::deck {
 namespace {
 
 const RealKey friction(
-    {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb's."});
+    {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb friction."});
 
 OptionalKey<Function> travel_along(const std::string& axis) {
   return OptionalKey<Function>({.name = "Travel " + axis,
                                 .unit = "m",
-                                .meaning = "How far it has gone along " + axis +
-                                           " at the time t (s), from where the other keys put it. Without: nowhere."});
+                                .meaning = "Displacement along " + axis + " as a function of the time t (s)."});
 }
 const std::array<OptionalKey<Function>, 3> travel = {travel_along("X"), travel_along("Y"), travel_along("Z")};
 
-const OptionalKey<double> mass({.name = "Mass",
-                                .unit = "kg",
-                                .range = positive,
-                                .meaning = "It flies, and what it pushes pushes back; it does not turn. Without: it "
-                                           "travels as given, whatever force that takes."});
+const OptionalKey<double> mass(
+    {.name = "Mass",
+     .unit = "kg",
+     .range = positive,
+     .meaning =
+         "The tool moves freely under contact forces, without turning. Without this key it moves as Travel says."});
 
 RealKey speed_along(const std::string& axis) {
   return RealKey({.name = "Speed " + axis,
                   .unit = "m/s",
                   .fallback = "0",
-                  .meaning = "At the initial time, along " + axis + ", of a tool with a Mass."});
+                  .meaning = "Initial velocity along " + axis + " of a tool with a Mass."});
 }
 const std::array<RealKey, 3> speed = {speed_along("X"), speed_along("Y"), speed_along("Z")};
 
 OptionalKey<Function> force_along(const std::string& axis) {
-  return OptionalKey<Function>({.name = "Force " + axis,
-                                .unit = "N",
-                                .meaning = "That drives a tool with a Mass along " + axis + ", at the time t (s)."});
+  return OptionalKey<Function>(
+      {.name = "Force " + axis,
+       .unit = "N",
+       .meaning = "Force on a tool with a Mass along " + axis + " as a function of the time t (s)."});
 }
 const std::array<OptionalKey<Function>, 3> force = {force_along("X"), force_along("Y"), force_along("Z")};
 
@@ -83,21 +84,19 @@ RigidTool read_tool(Shape shape, const Values& values, Problems& problems) {
   return tool;
 }
 
-const VectorKey point_on_plane({.name = "Point", .unit = "m", .meaning = "On the plane."});
-const VectorKey normal({.name = "Normal", .meaning = "Of any length but zero."});
+const VectorKey point_on_plane({.name = "Point", .unit = "m", .meaning = "A point of the plane."});
+const VectorKey normal({.name = "Normal", .meaning = "Normal, of any length."});
 
 Section plane(const std::string& type, const std::string& meaning) {
   return {.name = type, .meaning = meaning, .keys = {point_on_plane, normal}};
 }
 
-const VectorKey point_on_axis({.name = "Point", .unit = "m", .meaning = "On the axis."});
-const VectorKey axis({.name = "Axis", .meaning = "Its direction, of any length but zero."});
-const RealKey radius({.name = "Radius", .unit = "m", .range = positive, .meaning = "Of the roll."});
+const VectorKey point_on_axis({.name = "Point", .unit = "m", .meaning = "A point of the axis."});
+const VectorKey axis({.name = "Axis", .meaning = "Direction of the axis, of any length."});
+const RealKey radius({.name = "Radius", .unit = "m", .range = positive, .meaning = "Radius."});
 
-const VectorKey lower({.name = "Lower Corner", .unit = "m", .meaning = "The smallest x, y, z."});
-const VectorKey upper({.name = "Upper Corner",
-                       .unit = "m",
-                       .meaning = "The largest x, y, z, each larger than that of the lower corner."});
+const VectorKey lower({.name = "Lower Corner", .unit = "m", .meaning = "Smallest x, y, z."});
+const VectorKey upper({.name = "Upper Corner", .unit = "m", .meaning = "Largest x, y, z."});
 
 void check_corners(const Values& values, Problems& problems) {
   if (!values.has(upper) || !values.has(lower)) return;
@@ -111,11 +110,11 @@ void check_corners(const Values& values, Problems& problems) {
 }  // namespace
 
 Section symmetry_plane_section() {
-  return plane("Symmetry Plane",
-               "A body that ends at the plane goes on behind it as its mirror image: a half, or a quarter between two "
-               "planes, is the whole. The node set has all points at the plane and no others: elements with a face on "
-               "it, or nodes. Points of `all` or of a block keep their distance to the plane (plane strain), and so do "
-               "those of a set that is none of these, of which a warning tells. Contact does not see mirror images.");
+  return plane(
+      "Symmetry Plane",
+      "A body that ends at the plane continues behind it as its mirror image. The node set has all points at the plane "
+      "and no others: elements with a face on it, or nodes. Points of `all` or of a block keep their distance to the "
+      "plane (plane strain); so do those of any other set, with a warning. Contact does not see mirror images.");
 }
 
 ConditionPrototype read_symmetry_plane(const Values& values, Problems& problems) {
@@ -123,7 +122,7 @@ ConditionPrototype read_symmetry_plane(const Values& values, Problems& problems)
 }
 
 Section rigid_plane_section() {
-  return tool(plane("Rigid Plane", "A wall: bodies stay on the side the normal points to."));
+  return tool(plane("Rigid Plane", "Wall: bodies stay on the side that the normal points to."));
 }
 
 ConditionPrototype read_rigid_plane(const Values& values, Problems& problems) {
@@ -132,7 +131,7 @@ ConditionPrototype read_rigid_plane(const Values& values, Problems& problems) {
 
 Section rigid_cylinder_section() {
   return tool({.name = "Rigid Cylinder",
-               .meaning = "A roll without ends: bodies stay outside.",
+               .meaning = "Cylinder without ends: bodies stay outside.",
                .keys = {point_on_axis, axis, radius}});
 }
 
@@ -143,7 +142,7 @@ ConditionPrototype read_rigid_cylinder(const Values& values, Problems& problems)
 
 Section rigid_box_section() {
   return tool({.name = "Rigid Box",
-               .meaning = "A solid block with faces across the axes and sharp edges: bodies stay outside.",
+               .meaning = "Box with sharp edges along the axes: bodies stay outside.",
                .keys = {lower, upper}});
 }
 

@@ -6,12 +6,12 @@
 namespace strut::deck {
 
 struct Watch {
-  bool stops{};            // else it only warns, once
-  bool stops_inverted{};   // else inverted points continue as masses
-  double balance_error{};  // relative to the largest energy
-  double smallest_step{};  // relative to the first step
-  double penetration{};    // relative to the touching distance of points
-  double passing{};        // relative to the points of the smaller of two bodies
+  bool stops{};               // else it only warns, once
+  bool stops_inverted{};      // else inverted points continue as masses
+  double balance_error{};     // relative to the largest energy
+  double smallest_step{};     // relative to the first step
+  double penetration{};       // relative to the touching distance of points
+  double interpenetration{};  // relative to the points of the smaller of two bodies
 };
 
 Section watch_section();

@@ -5,7 +5,7 @@ namespace strut::deck {
 namespace {
 
 std::string without_either(int parts) {
-  return parts > 0 ? " Where neither is given: 1/" + std::to_string(parts) + " of the run." : "";
+  return parts > 0 ? " Default 1/" + std::to_string(parts) + " of the run." : "";
 }
 
 }  // namespace
@@ -14,11 +14,11 @@ WhenKeys::WhenKeys(const std::string& prefix, int parts_of_a_run)
     : frequency({.name = prefix + "Frequency",
                  .unit = "steps",
                  .range = {.low = 1},
-                 .meaning = "Every so many steps. Not together with " + prefix + "Interval."}),
+                 .meaning = "Steps between two. Not together with " + prefix + "Interval."}),
       interval({.name = prefix + "Interval",
                 .unit = "s",
                 .range = positive,
-                .meaning = "Every so much time." + without_either(parts_of_a_run)}),
+                .meaning = "Simulated time between two." + without_either(parts_of_a_run)}),
       parts(parts_of_a_run) {}
 
 }  // namespace strut::deck

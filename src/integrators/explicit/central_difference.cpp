@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "integrators/explicit/pushed_points.hpp"
+#include "integrators/period_work.hpp"
 #include "mechanics/mirror_forces.hpp"
 #include "mechanics/rigid_motion.hpp"
 #include "mechanics/serialize.hpp"
@@ -45,6 +46,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
                                      double initial_time, std::optional<Fracture> fracture)
     : CentralDifference(body, std::move(conditions), std::move(contact), control, ToBeRestored(), std::move(fracture)) {
   time_ = initial_time;
+  stretch_sides(time_);
   for (MaterialBlock& block : body_.blocks) block.rest_frequency_bound = largest_frequency_bound(body_, block);
   find_rigid_motion(body_);
   energies_.start(body_);
@@ -128,14 +130,17 @@ StepReport CentralDifference::substeps() {
 StepReport CentralDifference::substep(int level, double t) {
   const PointTimeSteps steps = point_steps();
   const std::vector<int>& moved = multi_stepping_.moved(level);
+  stretch_sides(t);
   const int count = static_cast<int>(moved.size());
   for_each_point(0, count, [&](int n) { drift(moved[n], steps); });
   const double impulse_time = std::ldexp(dt(), -level);
   const StepReport report = multi_stepping_.forces(body_, level, impulse_time);
   for_each_point(0, count, [&](int n) { kick(moved[n], impulse_time); });
   ReactionImpulses& impulses = reactions_.of_substeps();
-  ReactionAccount::add_mirrors(body_, mirror_forces(body_, level, &moved), impulse_time, impulses);
+  const std::vector<Vector> of_sides = mirror_forces(body_, level, &moved);
+  ReactionAccount::add_mirrors(body_, of_sides, impulse_time, impulses);
   ImpulseWork work;
+  add_period_work(body_.domain, of_sides, {t, impulse_time, impulse_time, impulse_time}, work);
   change_velocities(conditions_of_level_[level - 1], t, steps, body_, work, impulses);
   energies_.add(work);
   return report;
@@ -176,6 +181,8 @@ void CentralDifference::constrain(double impulse_time) {
   steps.impulse = impulse_time / dt();
   change_velocities(conditions_, time_, steps, body_, energies_.at_impulse(), impulses);
   ReactionAccount::add_mirrors(body_, mirror_forces_, impulse_time, impulses);
+  add_period_work(body_.domain, mirror_forces_, {time_, length_.previous_dt(), dt(), impulse_time},
+                  energies_.at_impulse());
   reactions_.take(impulses, mid_steps_, impulse_time, length_.previous_dt());
 }
 
@@ -209,6 +216,7 @@ void CentralDifference::drift_to_next_time() {
   const PointTimeSteps steps = point_steps();
   for_each_point(0, body_.owned(), [&](int i) { drift(i, steps); });
   time_ = length_.next_time();
+  stretch_sides(time_);
   length_.count_step();
   updates_ += multi_stepping_.updates_a_point();
   most_substeps_ = std::max(most_substeps_, 1 << multi_stepping_.level_count());
@@ -228,6 +236,8 @@ void CentralDifference::reassign_levels(StepReport& report, const std::vector<st
   restrict_conditions();
   length_.take_levels(multi_stepping_);
 }
+
+void CentralDifference::stretch_sides(double t) { body_.domain.halo.set_stretch(stretch_at(body_.domain.periods, t)); }
 
 void CentralDifference::restrict_conditions() {
   conditions_of_level_.clear();
@@ -295,7 +305,8 @@ void CentralDifference::serialize(Archive& archive) {
   archive.number("exposed_are_pushed", exposed_are_pushed_);
   energies_.serialize(archive);
   reactions_.serialize(archive);
-  mirror_forces_.resize(body_.domain.mirrors.size(), Vector::Zero());
+  if (archive.loading()) stretch_sides(time_);
+  mirror_forces_.resize(side_count(body_.domain), Vector::Zero());
   serialize_mirror_forces(archive, mirror_forces_);
   contact_.serialize(archive, kinematics(), dt());
   if (!archive.loading()) return;

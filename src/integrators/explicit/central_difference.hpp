@@ -84,6 +84,7 @@ class CentralDifference {
   void drift_to_next_time();
   void reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed);
   void restrict_conditions();
+  void stretch_sides(double t);
   StepReport substeps();
   StepReport substep(int level, double t);
   void sum_all_forces(bool with_diagnostics);
@@ -103,7 +104,7 @@ class CentralDifference {
   EnergyAccount energies_;
   ReactionAccount reactions_;
   MidSteps mid_steps_;                 // around time()
-  std::vector<Vector> mirror_forces_;  // N, at time(), of domain.mirrors on this rank's points
+  std::vector<Vector> mirror_forces_;  // N, at time(), of domain.mirrors or periods on this rank's points
   std::vector<double> load_times_;     // times of the loads for the impulses at time(), s
   bool loads_change_ = false;
   double time_;

@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "mechanics/mirror_forces.hpp"
+
 namespace strut {
 
 void ReactionAccount::gather(int conditions) {
@@ -12,7 +14,7 @@ void ReactionAccount::gather(int conditions) {
 void ReactionAccount::add_mirrors(const Body& body, const std::vector<Vector>& forces, double impulse_time,
                                   ReactionImpulses& impulses) {
   for (std::size_t m = 0; m < forces.size(); ++m) {
-    impulses.add(body.domain.mirrors[m].number, impulse_time * forces[m]);
+    impulses.add(number_of_side(body.domain, m), impulse_time * forces[m]);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
+#include "integrators/period_work.hpp"
 #include "mechanics/formulation/flow.hpp"
 #include "mechanics/mirror_forces.hpp"
 #include "mechanics/serialize.hpp"
@@ -58,6 +59,7 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
       committed_(body) {
   check_equilibria_possible(conditions_);
   residual_.assign(body.owned(), Vector::Zero());
+  mirror_forces_before_.assign(side_count(body.domain), Vector::Zero());
   inner_ = outer_ = outer_before_ = forces_before_ = residual_;
   directions_ = body.domain.sites;
   const double of_places = round_off_of_places(body);
@@ -69,9 +71,19 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
 
 void Equilibrium::begin(double t, double dt) {
   t_ = t, dt_ = dt;
+  stretch_sides(t + dt);
   constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
   tools_.begin(body_, t, dt);
   check_values();
+}
+
+void Equilibrium::stretch_sides(double t) { body_.domain.halo.set_stretch(stretch_at(body_.domain.periods, t)); }
+
+void Equilibrium::follow_sides() {
+  const Vector more = stretch_at(body_.domain.periods, t_ + dt_) - stretch_at(body_.domain.periods, t_);
+  for (int i = 0; i < body_.owned(); ++i) {
+    body_.domain.sites[i].current.head<3>() += more.array() * body_.domain.sites[i].reference.head<3>();
+  }
 }
 
 // Checks the values of conditions at the end of the step, before any point is moved by them.
@@ -211,6 +223,7 @@ std::vector<Tensor> Equilibrium::contact_springs() {
 
 void Equilibrium::go_back() {
   committed_.restore(body_);
+  stretch_sides(t_);
   advance(0, true);
   add_contact();  // for its energy
   forces_ = forces_before_;
@@ -229,7 +242,7 @@ void Equilibrium::serialize(Archive& archive) {
   forces_.resize(body_.owned(), Vector::Zero());
   serialize_field("forces", forces_);
   serialize_field("outer_forces", outer_before_);
-  mirror_forces_.resize(body_.domain.mirrors.size(), Vector::Zero());
+  mirror_forces_.resize(side_count(body_.domain), Vector::Zero());
   serialize_mirror_forces(archive, mirror_forces_);
   archive.number("step_begin", t_);
   archive.number("step_length", dt_);
@@ -238,6 +251,8 @@ void Equilibrium::serialize(Archive& archive) {
   contact_.serialize(archive, kinematics, 0);
   tools_.serialize(archive, body_);
   if (!archive.loading()) return;
+  stretch_sides(t_ + dt_);
+  mirror_forces_before_ = mirror_forces_;
   forces_before_ = forces_;
   outer_ = outer_before_;
   for (int i = 0; i < body_.owned(); ++i) looked_at_[i] = body_.current(i);
@@ -246,7 +261,7 @@ void Equilibrium::serialize(Archive& archive) {
 }
 
 double Equilibrium::external_work() const {
-  double sum = 0;
+  double sum = period_work(body_.domain, mirror_forces_before_, mirror_forces_, t_, dt_);
   for (int i = 0; i < body_.owned(); ++i) {
     sum += 0.5 * (outer_before_[i] + outer_[i]).dot(body_.current(i) - committed_.place(i));
   }
@@ -259,7 +274,7 @@ Reactions Equilibrium::reactions(int conditions) const {
   constraints_->add_reactions(forces_, all.forces);
   tools_.add_reactions(all.forces);
   for (std::size_t m = 0; m < mirror_forces_.size(); ++m) {
-    all.forces[body_.domain.mirrors[m].number] += mirror_forces_[m];
+    all.forces[number_of_side(body_.domain, m)] += mirror_forces_[m];
   }
   body_.domain.communicator.sum(std::span(all.forces.data()->data(), 3 * all.forces.size()));
   return all;

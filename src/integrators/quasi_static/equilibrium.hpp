@@ -32,6 +32,9 @@ class Equilibrium {
   // condition is not finite.
   void begin(double t, double dt);
 
+  // Moves all points with periodic sides, from the committed positions.
+  void follow_sides();
+
   // Collective. Evaluates the forces at the present positions of body().domain.sites.
   Imbalance evaluate(bool with_diagnostics = false);
   const Field& residual() const { return residual_; }  // N, forces of the last trial in free directions
@@ -62,6 +65,7 @@ class Equilibrium {
   const Constraints& constraints() const { return *constraints_; }
   Vector start(int i) const { return committed_.place(i); }
   const contact::Contact& contact() const { return contact_; }
+  contact::Contact take_contact() { return std::move(contact_); }
   const Conditions& conditions() const { return conditions_; }
   // For the last trial: work of loads and of holding conditions over the step, by the mean of the forces at its ends, J
   // on this rank.
@@ -81,6 +85,7 @@ class Equilibrium {
   void add_contact();
   Imbalance measure(bool failed);
   void begin_flow_of_cells();
+  void stretch_sides(double t);
 
   Body& body_;
   Conditions conditions_;

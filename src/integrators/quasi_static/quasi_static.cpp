@@ -50,7 +50,7 @@ double QuasiStatic::bytes(const Body& body, const QuasiStaticControl& control) {
 
 // Extrapolates: points that moved in the last step continue at their rate.
 void QuasiStatic::extrapolate() {
-  if (steps_ == 0) return;
+  if (steps_ == 0) return equilibrium_.follow_sides();
   Body& body = equilibrium_.body();
   const double factor = dt_ / last_dt_;
   for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() += factor * last_step_[i].array();

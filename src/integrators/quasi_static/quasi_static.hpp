@@ -27,6 +27,8 @@ class QuasiStatic {
   int iterations() const { return iterations_; }    // of this run, including failed attempts
   int evaluations() const { return evaluations_; }  // of the forces, or of the tangent times a field
   const contact::Contact& contact() const { return equilibrium_.contact(); }
+  // When it is over, for steps that go on from here: contact remembers from where bodies touch.
+  contact::Contact take_contact() { return equilibrium_.take_contact(); }
   const Conditions& conditions() const { return equilibrium_.conditions(); }
 
   // Collective. Makes one load step; false if the observer requested a stop before it was made. Throws Error on all

@@ -12,7 +12,6 @@
 #include "io/checkpoint/checkpoint_layout.hpp"
 #include "io/netcdf/classic_netcdf.hpp"
 #include "io/netcdf/netcdf_lists.hpp"
-#include "io/netcdf/trial_read.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
 

@@ -24,22 +24,14 @@ Symmetric moments_of(const Mesh& mesh, const Mesh::Block& block, std::size_t ele
   return cube_moments(block.volumes[element]);
 }
 
-// A node with the bits of the symmetry planes that it lies on (PointCloud::shared_nodes).
-std::int64_t node_at(const MeshSlice& slice, int node, const std::vector<Mirror>& planes, double spacing) {
-  std::int64_t shared_node = slice.nodes[node];
-  for (const Mirror& plane : planes) {
-    if (plane.holds(slice.mesh.nodes[node], spacing)) shared_node |= std::int64_t{1} << (first_plane_bit + plane.bit);
-  }
-  return shared_node;
-}
-
 std::vector<std::int64_t> nodes_of(const MeshSlice& slice, const Mesh::Block& block, std::size_t element,
                                    const std::vector<Mirror>& planes, double spacing) {
   if (block.type == "SPHERE") return {};
   const std::size_t size = block.nodes.size() / block.elements();
   std::vector<std::int64_t> shared_nodes;
   for (std::size_t n = element * size; n < (element + 1) * size; ++n) {
-    shared_nodes.push_back(node_at(slice, block.nodes[n], planes, spacing));
+    const int node = block.nodes[n];
+    shared_nodes.push_back(shared_node_at(slice.mesh.nodes[node], slice.nodes[node], planes, spacing));
   }
   std::sort(shared_nodes.begin(), shared_nodes.end());
   shared_nodes.erase(std::unique(shared_nodes.begin(), shared_nodes.end()),

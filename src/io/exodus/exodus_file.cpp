@@ -12,7 +12,6 @@
 #include "base/errors.hpp"
 #include "io/exodus/exodus_words.hpp"
 #include "io/netcdf/classic_netcdf.hpp"
-#include "io/netcdf/trial_read.hpp"
 #include "io/netcdf/wide_netcdf.hpp"
 
 namespace strut::io {

@@ -4,7 +4,6 @@
 
 #include "base/errors.hpp"
 #include "io/exodus/mesh_points.hpp"
-#include "io/netcdf/trial_read.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
 #include "topology/coincident.hpp"
@@ -22,7 +21,6 @@ void check_count_of_sets(std::size_t sets, const std::string& name) {
 }
 
 MeshFile opened(const std::filesystem::path& path) {
-  try_in_child_process(path, [&path] { read_through(MeshFile(ExodusFile::open(path))); });
   ExodusFile file = ExodusFile::open(path);
   check_count_of_sets(file.node_sets().size(), path.string());
   return MeshFile(std::move(file));

@@ -16,7 +16,6 @@
 #include "io/exodus/numbering.hpp"
 #include "io/file_lock.hpp"
 #include "io/netcdf/classic_netcdf.hpp"
-#include "io/netcdf/trial_read.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
 #include "io/to_disk.hpp"

@@ -8,9 +8,7 @@
 #include <optional>
 
 #include "base/errors.hpp"
-#include "base/parallel/gather_scatter.hpp"
 #include "io/exodus/elements.hpp"
-#include "io/netcdf/trial_read.hpp"
 
 namespace strut::io {
 
@@ -209,44 +207,6 @@ void MeshFile::numbers(On on, std::int64_t begin, std::span<std::int64_t> values
   std::copy(read.begin(), read.end(), values.begin());
 }
 
-namespace {
-
-// Calls read(begin, values) for all of `count` values, in portions.
-template <class T, class Read>
-void look_at(std::int64_t count, const Read& read) {
-  std::vector<T> values;
-  for (std::int64_t begin = 0; begin < count; begin += std::ssize(values)) {
-    values.resize(static_cast<std::size_t>(std::min<std::int64_t>(largest_portion, count - begin)));
-    read(begin, std::span<T>(values));
-  }
-}
-
-}  // namespace
-
-void read_through(const MeshFile& mesh) {
-  const MeshLayout& layout = mesh.layout();
-  look_at<MeshFile::Place>(layout.nodes, [&](std::int64_t begin, auto values) { mesh.places(begin, values); });
-  for (std::size_t k = 0; k < layout.node_sets.size(); ++k) {
-    look_at<int>(layout.node_sets[k].nodes,
-                 [&](std::int64_t begin, auto nodes) { mesh.nodes_of_set(k, begin, nodes); });
-  }
-  for (std::size_t b = 0; b < layout.blocks.size(); ++b) {
-    const MeshLayout::Block& block = layout.blocks[b];
-    look_at<int>(block.elements * nodes_per_element(block.type),
-                 [&](std::int64_t begin, auto nodes) { mesh.nodes_of_block(b, begin, nodes); });
-    for (std::size_t k = 0; block.partly_filled && k < partial_cell_attributes.size(); ++k) {
-      look_at<double>(block.elements,
-                      [&](std::int64_t begin, auto values) { mesh.cell_attribute(b, k, begin, values); });
-    }
-    if (block.type != "SPHERE") continue;
-    look_at<double>(block.elements, [&](std::int64_t begin, auto values) { mesh.sphere_volumes(b, begin, values); });
-  }
-  for (const auto on : {ExodusFile::On::nodes, ExodusFile::On::elements}) {
-    look_at<std::int64_t>(on == ExodusFile::On::nodes ? layout.nodes : layout.elements,
-                          [&](std::int64_t begin, auto values) { mesh.numbers(on, begin, values); });
-  }
-}
-
 double& member(PartialCell& cell, std::size_t attribute) {
   if (attribute == 0) return cell.volume;
   if (attribute < 4) return cell.centroid[static_cast<int>(attribute) - 1];
@@ -256,9 +216,7 @@ double& member(PartialCell& cell, std::size_t attribute) {
   return cell.surface_moments((number - 3) / 3, (number - 3) % 3);
 }
 
-namespace {
-
-Mesh whole_mesh(const std::filesystem::path& path) {
+Mesh read_mesh(const std::filesystem::path& path) {
   const MeshFile file(ExodusFile::open(path));
   const MeshLayout& layout = file.layout();
   Mesh mesh;
@@ -283,12 +241,6 @@ Mesh whole_mesh(const std::filesystem::path& path) {
     if (type == "SPHERE" && elements > 0) file.sphere_volumes(b, 0, values), block.volumes = values;
   }
   return mesh;
-}
-
-}  // namespace
-
-Mesh read_mesh(const std::filesystem::path& file) {
-  return read_after_trial(file, [&] { return whole_mesh(file); });
 }
 
 }  // namespace strut::io

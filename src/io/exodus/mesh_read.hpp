@@ -97,9 +97,6 @@ class MeshInMemory : public MeshSource {
   const Mesh& mesh_;
 };
 
-// Reads everything that the functions above can read, in portions that are discarded.
-void read_through(const MeshFile& mesh);
-
 // The member that partial_cell_attributes[attribute] names.
 double& member(PartialCell& cell, std::size_t attribute);
 

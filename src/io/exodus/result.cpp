@@ -2,13 +2,10 @@
 #include "base/errors.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/exodus/exodus_file.hpp"
-#include "io/netcdf/trial_read.hpp"
 
 namespace strut::io {
 
-namespace {
-
-ExodusResult read_whole(const std::filesystem::path& path) {
+ExodusResult read_result(const std::filesystem::path& path) {
   const ExodusFile file = ExodusFile::open(path);
   ExodusResult result;
   result.times = file.times();
@@ -29,15 +26,9 @@ ExodusResult read_whole(const std::filesystem::path& path) {
   return result;
 }
 
-}  // namespace
-
-ExodusResult read_result(const std::filesystem::path& path) {
-  return read_after_trial(path, [&] { return read_whole(path); });
-}
-
 std::optional<double> last_time_of_result(const std::filesystem::path& file) {
   try {
-    const std::vector<double> times = read_after_trial(file, [&] { return ExodusFile::open(file).times(); });
+    const std::vector<double> times = ExodusFile::open(file).times();
     if (!times.empty()) return times.back();
   } catch (const Error&) {
   }

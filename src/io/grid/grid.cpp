@@ -71,12 +71,8 @@ std::vector<std::int64_t> corners_of(const std::array<int, 3>& at, const std::ar
   for (const std::int64_t z : {at[2], at[2] + 1}) {
     for (const std::int64_t y : {at[1], at[1] + 1}) {
       for (const std::int64_t x : {at[0], at[0] + 1}) {
-        std::int64_t shared_node = (z * (points[1] + 1) + y) * (points[0] + 1) + x;
-        const Vector X = origin + cell.cwiseProduct(Vector(x, y, z));
-        for (const Mirror& plane : planes) {
-          if (plane.holds(X, cell.minCoeff())) shared_node |= std::int64_t{1} << (first_plane_bit + plane.bit);
-        }
-        corners.push_back(shared_node);
+        const std::int64_t number = (z * (points[1] + 1) + y) * (points[0] + 1) + x;
+        corners.push_back(shared_node_at(origin + cell.cwiseProduct(Vector(x, y, z)), number, planes, cell.minCoeff()));
       }
     }
   }
@@ -98,16 +94,35 @@ void add_cells(const Vector& cell, const Vector& origin, const std::array<int, 3
   cloud.has_shared_nodes = true;
 }
 
+// Two cells are at most n apart along each axis if, and only if, a box of n + 1 cells holds both. Boxes are numbered by
+// their first cells, x fastest, and may stand out of the grid.
+void add_boxes(const std::array<int, 3>& points, const std::array<int, 3>& reach, PointCloud& cloud) {
+  for (const std::int64_t id : cloud.ids) {
+    const std::array<int, 3> at = place_of(id, points);
+    std::vector<std::int64_t>& boxes = cloud.shared_nodes.emplace_back();
+    for (std::int64_t z = at[2]; z <= at[2] + reach[2]; ++z) {
+      for (std::int64_t y = at[1]; y <= at[1] + reach[1]; ++y) {
+        for (std::int64_t x = at[0]; x <= at[0] + reach[0]; ++x) {
+          boxes.push_back((z * (points[1] + reach[1]) + y) * (points[0] + reach[0]) + x);
+        }
+      }
+    }
+  }
+  cloud.has_shared_nodes = true;
+}
+
 }  // namespace
 
 PointCloud make_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points,
-                     const Communicator& communicator, bool with_cells, const std::vector<Mirror>& planes) {
+                     const Communicator& communicator, bool with_cells, const std::vector<Mirror>& planes,
+                     const std::optional<std::array<int, 3>>& box) {
   check_count(points);
   const Vector cell = length.cwiseQuotient(Vector(points[0], points[1], points[2]));
   const std::int64_t total = std::int64_t{points[0]} * points[1] * points[2];
   PointCloud cloud = part_of_grid(origin, cell, points, slice_begin(total, communicator.size(), communicator.rank()),
                                   slice_begin(total, communicator.size(), communicator.rank() + 1));
   if (with_cells) add_cells(cell, origin, points, planes, cloud);
+  if (box) cloud.shared_nodes.clear(), add_boxes(points, *box, cloud);
   return cloud;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "topology/cloud.hpp"
 #include "topology/mirror.hpp"
@@ -15,7 +16,10 @@ namespace strut::io {
 // Collective. Makes `points` cells along x, y, z, x fastest, in the block "block_1"; each rank gets a contiguous slice.
 // `with_cells`: also shapes, and shared nodes, which are the corners of the cells; faces on symmetry `planes` are no
 // surface.
+// `box`: shared nodes are boxes of cells instead, with so many beyond the first along each axis: cells that share one
+// are in each other's box of that reach.
 PointCloud make_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points,
-                     const Communicator& communicator, bool with_cells = false, const std::vector<Mirror>& planes = {});
+                     const Communicator& communicator, bool with_cells = false, const std::vector<Mirror>& planes = {},
+                     const std::optional<std::array<int, 3>>& box = {});
 
 }  // namespace strut::io

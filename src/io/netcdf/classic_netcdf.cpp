@@ -168,6 +168,12 @@ std::string classic_netcdf_problem(const std::filesystem::path& path, std::int64
   }
 }
 
+bool is_hdf5(const std::filesystem::path& file) {
+  std::string magic(4, '\0');  // the rest may be damaged
+  if (std::filesystem::is_regular_file(file)) std::ifstream(file, std::ios::binary).read(magic.data(), 4);
+  return magic == "\x89HDF";
+}
+
 // The number of records follows the magic number, in four bytes (eight in CDF-5), big-endian.
 void keep_records(const std::filesystem::path& path, int count) {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);

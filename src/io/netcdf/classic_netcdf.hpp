@@ -14,6 +14,8 @@ constexpr std::int64_t all_records = std::numeric_limits<std::int64_t>::max();
 // Complete: up to `records` records, if later ones are not needed.
 std::string classic_netcdf_problem(const std::filesystem::path& path, std::int64_t records = all_records);
 
+bool is_hdf5(const std::filesystem::path& file);
+
 // Truncates the file to its first `count` records. Throws Error.
 void keep_records(const std::filesystem::path& path, int count);
 

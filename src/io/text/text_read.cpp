@@ -63,6 +63,7 @@ class TextFile {
       ++number_;
       const std::string content = text.substr(0, text.find('#'));
       if (content.find_first_not_of(" \t\r") == std::string::npos) continue;
+      if (is_header(content)) continue;
       const std::string problem = parse(content, lines.emplace_back());
       if (problem.empty()) continue;
       throw Error(path_.string() + ", line " + std::to_string(number_) + ": " + problem + ": \"" + text.substr(0, 120) +
@@ -72,6 +73,17 @@ class TextFile {
   }
 
  private:
+  // A line that names the columns, as PeriLab's lists begin; they must be ours. Throws Error if they are not.
+  bool is_header(const std::string& content) const {
+    std::istringstream stream(content);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    if (words[0] != "header:") return false;
+    if (words == std::vector<std::string>{"header:", "x", "y", "z", "block_id", "volume"}) return true;
+    throw Error(path_.string() + ", line " + std::to_string(number_) +
+                ": expected the columns x y z block_id volume: \"" + content.substr(0, 120) + "\"");
+  }
+
   std::filesystem::path path_;
   std::ifstream file_;
   std::size_t number_ = 0;  // of the line

@@ -3,6 +3,7 @@
 #include "mechanics/formulation/correspondence.hpp"
 
 #include "mechanics/formulation/stress_update.hpp"
+#include "mechanics/kernels/prefetch.hpp"
 
 namespace strut {
 
@@ -106,14 +107,17 @@ struct Update {
 
   // Advances a group; returns the largest frequency bound² of its points, 1/s².
   double advance(const LaneGroup& group) const {
-    GroupTile<materials::state_size<L>, 1> state(*block().state, group.k, group.count);
+    GroupTile<materials::state_size<L>> state(*block().state, group.k, group.count);
+    Prefetch next;
+    next.add(state.rows() + materials::state_size<L>, materials::state_size<L>);
+    next.all();
     const IntegrationPoints<PointRecords> g{group, group.k, members(group), state.rows()};
     const LaneSymmetric shape_inverse = shape_inverses(group, body());
     const auto [N, pull] = moments(body(), group, with_springs);
     const Lanes trace = shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2];
     const Lanes carries = (trace > 0).select(Lanes::Constant(1), Lanes::Zero());
     const LaneTensor F = deformation_gradient(group, N, shape_inverse, carries);
-    const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.level); });
+    const Lanes share = shares(body(), group, law.pass.level);
     Deformed now = law.deformed(g.numbers, F, share, carries);
     law.set_stress(g, share, now);
     state.give_back(*block().state, group.k, group.count);

@@ -14,44 +14,51 @@ namespace strut {
 namespace {
 
 // Sums of a group over its families. Not a part of Update, which is compiled for every law.
-__attribute__((noinline)) bonds::QuadraticMoments<Lanes> moments(const Body& body, const LaneGroup& group) {
+__attribute__((noinline)) bonds::QuadraticMoments<Lanes> moments(const Body& body, const LaneGroup& group,
+                                                                 Prefetch ahead) {
+  ahead.spread_over(2 * group.cluster->near.size());
   return bonds::with_influence(body.influence, [&](auto weight) {
     return bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, body.domain.sites.data(), body.fits->multipliers(),
-                                   weight);
+                                   weight, ahead);
   });
 }
 
-// Integration point q of each cell of a group.
+// The integration points of the cells of a group. Those of the cells of a tile lie side by side, q after q.
 template <class L>
-class CellsAtPlace {
+class CellsOfGroup {
  public:
-  CellsAtPlace(MaterialBlock& block, const LaneGroup& group, int q)
+  CellsOfGroup(MaterialBlock& block, const LaneGroup& group)
       : block_(block),
         group_(group),
-        places_(places_of(block, group, q)),
-        numbers_(block.cells->tiles(), places_, group.count),
-        state_(*block.state, places_, group.count) {}
+        first_(places_of(block, group)),
+        numbers_(block.cells->tiles(), first_, group.count),
+        state_(*block.state, first_, group.count) {}
 
-  IntegrationPoints<PointTile> points() const { return {group_, places_, {numbers_.rows()}, state_.rows()}; }
-  PointTile numbers() const { return {numbers_.rows()}; }
+  IntegrationPoints<PointTile> points(int q) const {
+    std::array<int, LaneGroup::width> places;
+    for (int l = 0; l < LaneGroup::width; ++l) places[l] = first_[l] + q * LaneGroup::width;
+    return {group_, places, numbers(q), state_.rows() + q * columns};
+  }
+  PointTile numbers(int q) const { return {numbers_.rows() + q * CellPoints::size}; }
   void give_back() const {
-    numbers_.give_back(block_.cells->tiles(), places_, group_.count);
-    state_.give_back(*block_.state, places_, group_.count);
+    numbers_.give_back(block_.cells->tiles(), first_, group_.count);
+    state_.give_back(*block_.state, first_, group_.count);
   }
 
  private:
+  static constexpr std::size_t columns = materials::state_size<L>;
   using Places = std::array<int, LaneGroup::width>;
-  static Places places_of(const MaterialBlock& block, const LaneGroup& group, int q) {
+  static Places places_of(const MaterialBlock& block, const LaneGroup& group) {
     Places places;
-    for (int l = 0; l < LaneGroup::width; ++l) places[l] = static_cast<int>(block.place(group.k[l], q));
+    for (int l = 0; l < LaneGroup::width; ++l) places[l] = static_cast<int>(block.place(group.k[l], 0));
     return places;
   }
 
   MaterialBlock& block_;
   const LaneGroup& group_;
-  Places places_;
-  GroupTile<CellPoints::size, 4> numbers_;
-  GroupTile<materials::state_size<L>, 4> state_;
+  Places first_;  // of the first integration points
+  GroupTile<4 * CellPoints::size> numbers_;
+  GroupTile<4 * columns> state_;
 };
 
 // The stress update of one block.
@@ -65,26 +72,26 @@ struct Update {
   // 1 for cells whose metal had flowed when the step began, 0 for others.
   Lanes flowed(const LaneGroup& group) const {
     if constexpr (!materials::tells_flow<L>) return Lanes::Zero();
-    return lanes_of([&](int l) { return block().flowed[group.k[l]] ? 1.0 : 0.0; });
+    return lanes_of([&](int l) { return static_cast<double>(block().flowed[group.k[l]]); });
   }
 
   // Advances a group; returns the largest frequency bound² of its points, 1/s².
   double advance(const LaneGroup& group) const {
     QuadraticCells cells(group, *body().fits, body().domain.sites);
-    cells.take(moments(body(), group));
-    const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.level); });
+    cells.take(moments(body(), group, after(group)));
+    const Lanes share = shares(body(), group, law.pass.level);
     const Lanes carries = small::where_positive(cells.steepness(), Lanes::Ones(), Lanes::Zero());
     const Lanes has_flowed = flowed(group);
-    const CellsAtPlace<L> at[4]{{block(), group, 0}, {block(), group, 1}, {block(), group, 2}, {block(), group, 3}};
+    const CellsOfGroup<L> at(block(), group);
     std::array<Deformed, 4> now;
     for (int q = 0; q < 4; ++q) {
       LaneTensor F = cells.gradient_at(q);
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1 - carries;  // cells without stress stay undeformed
-      now[q] = law.deformed(at[q].numbers(), F, share, carries);
+      now[q] = law.deformed(at.numbers(q), F, share, carries);
     }
     const std::array<Lanes, 4> J{now[0].J, now[1].J, now[2].J, now[3].J};
     share_traces(J, {&now[0].rates, &now[1].rates, &now[2].rates, &now[3].rates}, has_flowed);
-    for (int q = 0; q < 4; ++q) law.set_stress(at[q].points(), share, now[q]);
+    for (int q = 0; q < 4; ++q) law.set_stress(at.points(q), share, now[q]);
     share_traces(J, {&now[0].stress, &now[1].stress, &now[2].stress, &now[3].stress}, has_flowed);
     Lanes stiffest = now[0].stiffness, softest = now[0].stiffness;
     for (const Deformed& there : now) {
@@ -95,8 +102,7 @@ struct Update {
     for (int q = 0; q < 4; ++q) {
       // While an integration point of a cell holds, its failed ones bear their fraction of the shared pressure.
       const Lanes holds = small::where_positive(J[q], some_hold, Lanes::Zero());
-      at[q].numbers().set_motion(now[q].F, now[q].polar.rotation, holds);
-      at[q].give_back();
+      at.numbers(q).set_motion(now[q].F, now[q].polar.rotation, holds);
       LaneTensor P = piola_kirchhoff(now[q].stress, now[q].polar, now[q].inverse_stretch, J[q]);
       for (auto& row : P.c) {  // zero if all have failed, for NaN, and if no stress is carried
         for (Lanes& number : row) number = small::where_positive(holds, number, Lanes::Zero());
@@ -105,6 +111,7 @@ struct Update {
       cells.add_stress(q, P);
       modulus = modulus.max(steepened_modulus(now[q]));
     }
+    at.give_back();
     const Lanes density = lanes_of([&](int l) { return body().density[group.i[l]]; });
     const Lanes bound2 = share * share * cells.volume() / density * cells.steepness() * modulus;
     auto states = cells.states(share);
@@ -119,6 +126,21 @@ struct Update {
   }
 
  private:
+  static constexpr std::size_t columns = materials::state_size<L>;
+
+  // The records of the next group. In a whole step they lie behind those of this one.
+  Prefetch after(const LaneGroup& group) const {
+    const int next = LaneGroup::width;
+    const std::size_t place = block().place(group.k[0], 0);
+    Prefetch records;
+    records.add(body().fits->tiles().tile_of(body().fits->place(group.i[0])) + QuadraticFit::size, QuadraticFit::size);
+    records.add(block().cells->tiles().tile_of(place) + 4 * CellPoints::size, 4 * CellPoints::size);
+    records.add(block().state->tile_of(place) + 4 * columns, 4 * columns);
+    records.add(&state_of(group, 0) + next, next);
+    records.add(&body().density[group.i[0]] + next, next);
+    records.add(group.cluster->near.data() + group.cluster->near.size(), group.cluster->near.size());
+    return records;
+  }
   QuadraticState& state_of(const LaneGroup& group, int l) const { return body().force_states.quadratics[group.i[l]]; }
 
   // A cell that begins to flow (only where `may` is 1) gets the mean of two forces: by its old fit, at the end of this
@@ -126,18 +148,19 @@ struct Update {
   // order in the step.
   void begin_flow_of(const LaneGroup& group, const std::array<Deformed, 4>& now, const Lanes& share,
                      const Lanes& may) const {
+    if constexpr (!materials::tells_flow<L>) return;
     Lanes begun = Lanes::Zero();
     for (int l = 0; l < group.count; ++l) begun[l] = may[l] > 0 && begin_flow(body(), block(), group.k[l]) ? 1 : 0;
     if (small::any_positive(begun)) take_mean_force(group, now, share, begun);
   }
   __attribute__((noinline)) void take_mean_force(const LaneGroup& group, const std::array<Deformed, 4>& now,
                                                  const Lanes& share, const Lanes& begun) const {
-    const CellsAtPlace<L> at[4]{{block(), group, 0}, {block(), group, 1}, {block(), group, 2}, {block(), group, 3}};
+    const CellsOfGroup<L> at(block(), group);
     std::array<LaneTensor, 4> F, R;
     std::array<Lanes, 4> J;
     std::array<LaneSymmetric, 4> stress{now[0].stress, now[1].stress, now[2].stress, now[3].stress};
     for (int q = 0; q < 4; ++q) {
-      F[q] = at[q].numbers().deformation_gradients(), R[q] = at[q].numbers().rotations();
+      F[q] = at.numbers(q).deformation_gradients(), R[q] = at.numbers(q).rotations();
       J[q] = small::determinant(F[q]);
     }
     share_traces(J, {&stress[0], &stress[1], &stress[2], &stress[3]}, begun);
@@ -159,6 +182,10 @@ struct Update {
   // a failed integration point may be crushed between others; it then only carries no stress.
   double report(const LaneGroup& group, const Lanes& determinant, const Lanes& softest, const Lanes& bound2) const {
     double fastest = 0;
+    if (small::lanes_below_zero(-determinant) == (1u << LaneGroup::width) - 1) {  // the usual case, without branches
+      for (int l = 0; l < LaneGroup::width; ++l) fastest = std::max(fastest, bound2[l]);
+      return fastest;
+    }
     for (int l = 0; l < group.count; ++l) {
       if (determinant[l] > 0) {
         fastest = std::max(fastest, bound2[l]);
@@ -206,7 +233,7 @@ void diagnose_cells(Body& body, const MaterialBlock& block, const LaneGroups& gr
   for_each_point(0, groups.count(), [&](int g) {
     const LaneGroup group = groups[g];
     QuadraticCells cells(group, *body.fits, body.domain.sites);
-    cells.take(moments(body, group));
+    cells.take(moments(body, group, {}));
     for (int l = 0; l < group.count; ++l) {
       const bool carries = body.fits->carries_stress(group.i[l]);
       diagnose_cell(body, block, group.k[l], carries ? at(cells.gradient(), l) : Tensor(Tensor::Identity()));

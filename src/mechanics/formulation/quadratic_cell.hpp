@@ -136,7 +136,7 @@ class QuadraticCells {
     return places;
   }
 
-  GroupTile<QuadraticFit::size, 1, const small::TileRow> numbers_;
+  GroupTile<QuadraticFit::size, const small::TileRow> numbers_;
   Lanes volume_;
   LaneTensor F_, mean_ = bonds::zero_tensor<Lanes>();
   Lanes H_[3][6];

@@ -97,7 +97,7 @@ QuadraticFits::QuadraticFits(const Body& body)
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       number_[block.points[k]] = static_cast<int>(cells + block.slot_of_cell(k));
     }
-    cells += block.integration_points() / block.places_a_point();
+    cells += block.integration_points() / block.points_per_cell();
   }
   fits_.assign(cells, std::array<double, QuadraticFit::size>{});
   for (const MaterialBlock& block : body.blocks) {

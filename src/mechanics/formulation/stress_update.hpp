@@ -22,6 +22,12 @@ inline Lanes present(const LaneGroup& group) {
   return lanes_of([&](int l) { return l < group.count ? 1.0 : 0.0; });
 }
 
+// The points' own steps as fractions of the step of a level.
+inline Lanes shares(const Body& body, const LaneGroup& group, int level) {
+  if (body.time_levels.empty()) return Lanes::Ones();
+  return lanes_of([&](int l) { return body.share(group.i[l], level); });
+}
+
 // F, R and stress of integration points by correspondence. They are read number by number: the transposition of
 // `numbers_of` takes a tenth longer here, where the numbers come from memory anyway.
 struct PointRecords {
@@ -316,7 +322,7 @@ inline void add_damping(const MaterialBlock& block, const StressPass& pass, cons
     const LaneGroup group = groups[g];
     double most = 0;
     for (const int k : group.k) {
-      for (int q = 0; q < block.places_a_point(); ++q) most = std::max(most, block.viscous[block.place(k, q)].damping);
+      for (int q = 0; q < block.points_per_cell(); ++q) most = std::max(most, block.viscous[block.place(k, q)].damping);
     }
     return most;
   };

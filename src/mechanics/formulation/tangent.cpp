@@ -102,11 +102,11 @@ std::vector<PointTangent> point_tangents(const Body& body, const Committed& star
           tangents[i] = at_place(k, start.point(i), body.points[i]);
           return;
         }
-        for (int q = 0; q < block.places_a_point(); ++q) {
+        for (int q = 0; q < block.points_per_cell(); ++q) {
           const std::size_t place = block.place(k, q);
           PointTangent& tangent = tangents[body.owned() + block.first_integration_point + place];
           tangent = at_place(place, start.cell(b, place), block.cells[place]);
-          tangents[i].by_gradient += tangent.by_gradient / block.places_a_point();
+          tangents[i].by_gradient += tangent.by_gradient / block.points_per_cell();
         }
       });
     };

@@ -11,10 +11,8 @@ namespace strut {
 using small::TileRow;
 
 // Gives the tile of a group's records if they fill it in the order of the lanes, else a copy, because the other records
-// of a tile belong to another group, which another thread may write. The tile `ahead` tiles further
-// on is prefetched: there are too many streams for the hardware prefetcher. Row: const if the records are only
-// read.
-template <std::size_t numbers, std::size_t ahead, class Row = TileRow>
+// of a tile belong to another group, which another thread may write. Row: const if the records are only read.
+template <std::size_t numbers, class Row = TileRow>
 class GroupTile {
  public:
   using Places = std::array<int, LaneGroup::width>;
@@ -24,10 +22,7 @@ class GroupTile {
     bool own = count == LaneGroup::width && places[0] % LaneGroup::width == 0;
     for (int l = 1; l < count; ++l) own = own && places[l] == places[0] + l;
     rows_ = own ? all.tile_of(places[0]) : copy_.data();
-    if (own) {
-      for (std::size_t n = 0; n < numbers; ++n) __builtin_prefetch(rows_ + ahead * numbers + n);
-      return;
-    }
+    if (own) return;
     std::array<const TileRow*, LaneGroup::width> tile;
     for (int l = 0; l < LaneGroup::width; ++l) tile[l] = all.tile_of(places[l]);
     for (std::size_t n = 0; n < numbers; ++n) {

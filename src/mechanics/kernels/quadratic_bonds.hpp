@@ -6,6 +6,7 @@
 
 #include "mechanics/formulation/quadratic_fit.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
+#include "mechanics/kernels/prefetch.hpp"
 
 namespace strut::bonds {
 
@@ -24,10 +25,11 @@ struct QuadraticMoments {
   Vector3<T> sum = zero_vector<T>();
 };
 
-// Two loops, because all sums at once do not fit into the registers.
+// Two loops, because all sums at once do not fit into the registers. `ahead`: what is read after them.
 template <class Family, class Weight>
 inline QuadraticMoments<ScalarOf<Family>> quadratic_gather(const Family& family, const Site* sites,
-                                                           const Eigen::Array4d* multipliers, Weight weight) {
+                                                           const Eigen::Array4d* multipliers, Weight weight,
+                                                           Prefetch ahead) {
   using T = ScalarOf<Family>;
   const Vector3<T> y = own_place(family, sites, &Site::current);
   QuadraticMoments<T> N;
@@ -45,6 +47,7 @@ inline QuadraticMoments<ScalarOf<Family>> quadratic_gather(const Family& family,
             for (int c = 0; c < 3; ++c) first.c[r][c] += weighted * xi.c[c];
             for (int c = 0; c < 3; ++c) correction.c[r][c] += weighted * mu[c];
           }
+          ahead.some();
         },
         multipliers);
     N.first = first, N.correction = correction, N.sum = sum;
@@ -61,6 +64,7 @@ inline QuadraticMoments<ScalarOf<Family>> quadratic_gather(const Family& family,
       const T weighted = w * eta.c[r];
       for (int k = 0; k < 6; ++k) second[r][k] += weighted * q[k];
     }
+    ahead.some();
   });
   for (int r = 0; r < 3; ++r) {
     for (int k = 0; k < 6; ++k) N.second[r][k] = k < 3 ? T(0.5 * second[r][k]) : second[r][k];

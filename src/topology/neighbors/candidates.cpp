@@ -2,9 +2,14 @@
 
 namespace strut {
 
-Mirrored mirrored(std::vector<Mirror> mirrors, const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
-                  double reach, const Communicator& communicator) {
-  Mirrored result{.mirrors = std::move(mirrors)};
+Mirrored mirrored(std::vector<Mirror> mirrors, const std::vector<Period>& periods, const PointCloud& cloud,
+                  const std::vector<BlockBonds>& bonds, double reach, const Communicator& communicator) {
+  Mirrored result{.mirrors = std::move(mirrors), .periods = periods};
+  if (!periods.empty()) {
+    result.all = common_box(box_around(cloud.positions), communicator);
+    result.images = Images(periods, reach);
+    return result;
+  }
   for (const Mirror& mirror : result.mirrors) {
     Eigen::AlignedBox3d box;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -29,6 +34,12 @@ std::vector<Offered> offered(const PointCloud& cloud, const std::vector<BlockBon
         const Vector place = mirrored.images[image](cloud.positions[i]);
         if (mirrored.boxes[m].squaredExteriorDistance(place) <= reach * reach) all.push_back({i, image, place});
       }
+    }
+  }
+  for (const int image : mirrored.periods.empty() ? std::vector<int>() : mirrored.images.of_body(0)) {
+    for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
+      const Vector place = mirrored.images[image](cloud.positions[i]);
+      if (mirrored.all.squaredExteriorDistance(place) <= reach * reach) all.push_back({i, image, place});
     }
   }
   return all;

@@ -15,16 +15,18 @@
 
 namespace strut {
 
-// The mirrors, and the images that they make.
+// The mirrors or periods, and the images that they make.
 struct Mirrored {
   std::vector<Mirror> mirrors;
   std::vector<Eigen::AlignedBox3d> boxes;  // for each mirror: the box of its body
   Images images;
+  std::vector<Period> periods = {};
+  Eigen::AlignedBox3d all = {};  // with periods: the box of all points
 };
 
 // Collective.
-Mirrored mirrored(std::vector<Mirror> mirrors, const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
-                  double reach, const Communicator& communicator);
+Mirrored mirrored(std::vector<Mirror> mirrors, const std::vector<Period>& periods, const PointCloud& cloud,
+                  const std::vector<BlockBonds>& bonds, double reach, const Communicator& communicator);
 
 // A position of a point that families of other points may need: its own (image 0), or that of an image.
 struct Offered {

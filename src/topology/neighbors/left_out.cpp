@@ -58,7 +58,9 @@ class SharedNodes {
     const bool is_mirrored = !mirrored_.images.of_body(body).empty();
     for (const std::int64_t shared_node : cloud_.shared_nodes[i]) {
       const std::int64_t number = shared_node & ((std::int64_t{1} << first_plane_bit) - 1);
-      if (!is_mirrored) {
+      if (!mirrored_.periods.empty()) {
+        visit(Images::id(number, cell_of(shared_node >> first_plane_bit, image)));
+      } else if (!is_mirrored) {
         visit(number);
       } else if (cloud_.at == PointsAt::nodes) {  // shared nodes are elements, none of which is its own image
         for_each_image_at(body, cloud_.positions[i], image, [&](int one) { visit(Images::id(number, one)); });
@@ -78,6 +80,16 @@ class SharedNodes {
     };
     look_at(0);
     for (const int one : images.of_body(body)) look_at(one);
+  }
+  // The number of the period that an image of a shared node belongs to; `upper`: bits of the upper sides that the
+  // shared node is on.
+  int cell_of(std::int64_t upper, int image) const {
+    int number = 0;
+    for (const Period& period : mirrored_.periods) {
+      const int n = static_cast<int>(std::lround(mirrored_.images[image].shift[period.axis] / period.length));
+      number = 16 * number + n + static_cast<int>(upper >> period.axis & 1) + 8;
+    }
+    return number;
   }
   // The first of the images that differ from `image` by reflections at some planes.
   int first_image(int body, std::int64_t planes, int image) const {

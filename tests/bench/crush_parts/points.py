@@ -3,7 +3,8 @@ import re
 import subprocess
 
 import numpy as np
-from strut_tools import history_of, mesh_program, with_core_seconds, write_mesh, write_stream
+from exodus import gather_voxels, write_mesh
+from strut_tools import history_of, with_core_seconds
 from work_precision_parts.runs import method_keys, parameter, section, share_of_steps
 
 from . import voxels
@@ -24,10 +25,7 @@ def cells(path, body, spacing, placement):
     for k in range(fine[2]):
         layer = np.stack([i.ravel(), j.ravel(), np.full(i.size, k)], 1)
         found.append(layer[body.solid(low + voxel * (layer + 0.5), placement.turn)])
-    found = np.concatenate(found)
-    head = f"voxels body {len(found)} {fine[0]} {fine[1]} {fine[2]} {PARTS} {SMALLEST} solid\n"
-    write_stream(path, [b"strut-mesh arrays 1\nnodes 0\n" + head.encode(), (np.array([voxel] * 3 + [*low]), "<f8"),
-                        (found, "<i4"), b"end\n"])
+    gather_voxels(path, "body", np.concatenate(found), fine, [voxel] * 3, low, PARTS, SMALLEST)
 
 
 def mesh(path, body, method, spacing, placement):

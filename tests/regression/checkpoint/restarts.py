@@ -23,7 +23,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tools/shared"))
-from launcher import is_open_mpi  # noqa: E402
+from strut_tools import is_open_mpi  # noqa: E402
 
 SPACING = 0.004
 GAP = 0.0005  # between the two bars

@@ -2,6 +2,11 @@
 // spelling.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
 #include "regression/bodies.hpp"
 #include "run/simulation.hpp"
 
@@ -179,6 +184,170 @@ TEST(DialectOfPeridigm, SlowCompressionOfAGrid) {
                                                                             key("Maximum Solver Iterations", "10"))) +
       own_output(folder / "ours.e", "1", variables);
   expect_the_same(folder, theirs, ours);
+}
+
+// ---- What only its decks have --------------------------------------------------------------------------------------
+
+std::string grid_of(const std::vector<int>& points, const std::vector<double>& lengths) {
+  const char* axes[] = {"X", "Y", "Z"};
+  std::string generator = key("Type", "PdQuickGrid");
+  for (int c = 0; c < 3; ++c) {
+    generator += typed(std::string(axes[c]) + " Origin", "double", "0.0") +
+                 typed(std::string(axes[c]) + " Length", "double", std::to_string(lengths[c])) +
+                 typed(std::string("Number Points ") + axes[c], "int", std::to_string(points[c]));
+  }
+  return key("Type", "PdQuickGrid") + section("TensorProduct3DMeshGenerator", generator);
+}
+
+constexpr double density = 7800, bulk = 130e9, shear = 78e9;  // of the solid below
+
+std::string solid(const std::string& horizon) {
+  return section("Materials", section("solid", key("Material Model", "Elastic") + key("Density", "7800") +
+                                                   key("Bulk Modulus", "130e9") + key("Shear Modulus", "78e9"))) +
+         section("Blocks", section("all of it", key("Block Names", "block_1") + key("Material", "solid") +
+                                                    typed("Horizon", "double", horizon)));
+}
+
+std::string explicit_steps(const std::string& end, const std::string& dt) {
+  return section("Solver", typed("Final Time", "double", end) + section("Verlet", typed("Fixed dt", "double", dt)));
+}
+
+const std::vector<double>& last_of(const io::ExodusResult& result, const std::string& name) {
+  for (std::size_t k = 0; k < result.element_names.size(); ++k) {
+    if (result.element_names[k] == name) return result.element[k].back();
+  }
+  for (std::size_t k = 0; k < result.nodal_names.size(); ++k) {
+    if (result.nodal_names[k] == name) return result.nodal[k].back();
+  }
+  throw Error("no variable " + name);
+}
+
+// Without a NeighborhoodType a family is a box of cells: with a horizon of 1.6 cells two to each side (it is rounded),
+// in a thin direction no more than there are: 5 · 5 · 2 − 1 neighbors inside, 3 · 3 · 2 − 1 at a corner.
+TEST(DialectOfPeridigm, FamiliesOfAGridAreBoxes) {
+  const RunFolder folder;
+  const std::string deck = section("Discretization", grid_of({7, 6, 2}, {7, 6, 2})) + solid("1.6") +
+                           explicit_steps("1e-6", "1e-6") +
+                           peer_output("Output", folder / "boxes", "1", {"Number_Of_Neighbors"});
+  ASSERT_TRUE(run(folder.write("boxes.xml", whole(deck)), folder.world));
+  if (folder.world.rank() != 0) return;
+  const std::vector<double> counts = last_of(io::read_result(folder / "boxes.e"), "Number_Of_Neighbors");
+  ASSERT_EQ(counts.size(), 84u);
+  EXPECT_EQ(std::ranges::max(counts), 5 * 5 * 2 - 1);
+  EXPECT_EQ(std::ranges::min(counts), 3 * 3 * 2 - 1);
+  EXPECT_EQ(std::ranges::count(counts, 5 * 5 * 2 - 1), 3 * 2 * 2);
+}
+
+// Two points of a chain, pulled apart by 2 e₀ at the start: each bond force of the ordinary solid is 18 K V e/ξ² a
+// volume, so that the stretch swings as cos ω t with ω² = 36 K/(ρ ξ²). Half a swing later it is −2 e₀, to the order of
+// central differences, (ω dt)²/24 of the phase.
+TEST(DialectOfPeridigm, BodiesBeginDisplaced) {
+  const RunFolder folder;
+  const double omega = std::sqrt(36 * bulk / density) / 2, end = std::numbers::pi / omega;
+  const std::string conditions =
+      section("Boundary Conditions", key("Low Node Set", "1") + key("High Node Set", "2") +
+                                         along("low", "Initial Displacement", "Low Node Set", "x", "-1e-6") +
+                                         along("high", "Initial Displacement", "High Node Set", "x", "1e-6"));
+  const std::string deck = section("Discretization", grid_of({2, 1, 1}, {4, 1, 1})) + solid("2.0") + conditions +
+                           explicit_steps(std::to_string(end * 1e6) + "e-6", std::to_string(end * 1e4) + "e-6") +
+                           peer_output("Output", folder / "swing", "1", {"Displacement"});
+  ASSERT_TRUE(run(folder.write("swing.xml", whole(deck)), folder.world));
+  if (folder.world.rank() != 0) return;
+  const std::vector<double> x = last_of(io::read_result(folder / "swing.e"), "DisplacementX");
+  EXPECT_NEAR(x[0], 1e-6, 1e-9);
+  EXPECT_NEAR(x[1], -1e-6, 1e-9);
+}
+
+// A load that holds one of these points in equilibrium, e = b ξ²/(18 K), and is then taken off: with the other one held
+// it swings to −e in half a period of ω² = 18 K/(ρ ξ²).
+TEST(DialectOfPeridigm, StepsGoOnFromEquilibria) {
+  const RunFolder folder;
+  const double load = 1e9, stretch = load * 4 / (18 * bulk), half = std::numbers::pi / (std::sqrt(18 * bulk / density) / 2);
+  const std::string held = "Prescribed Displacement";
+  const std::string conditions = section(
+      "Boundary Conditions",
+      key("Low Node Set", "1") + key("High Node Set", "2") + along("low", held, "Low Node Set", "xyz", "0.0") +
+          along("aside y", held, "High Node Set", "y", "0.0") + along("aside z", held, "High Node Set", "z", "0.0") +
+          along("pull", "Body Force", "High Node Set", "x",
+                "if (t &lt; 1.0000001) { value = 1e9; } else { value = 0; }"));
+  const auto solver = [](const std::string& name, const std::string& begin, double end, const std::string& steps) {
+    std::ostringstream text;
+    text.precision(17);
+    text << end;
+    return section(name, typed("Initial Time", "double", begin) + typed("Final Time", "double", text.str()) + steps);
+  };
+  const std::string deck =
+      section("Discretization", grid_of({2, 1, 1}, {4, 1, 1})) + solid("2.0") + conditions +
+      solver("Solver1", "0.0", 1, section("QuasiStatic", typed("Number of Load Steps", "int", "2"))) +
+      solver("Solver 2", "1.0", 1 + half, section("Verlet", typed("Fixed dt", "double", "2e-6"))) +
+      peer_output("Output1", folder / "then", "1", {"Displacement"});
+  ASSERT_TRUE(run(folder.write("then.xml", whole(deck)), folder.world));
+  if (folder.world.rank() != 0) return;
+  const io::ExodusResult result = io::read_result(folder / "then.e");
+  ASSERT_GT(result.times.size(), 4u);
+  EXPECT_EQ(result.times[2], 1);
+  for (std::size_t k = 0; k < result.nodal_names.size(); ++k) {
+    if (result.nodal_names[k] != "DisplacementX") continue;
+    EXPECT_NEAR(result.nodal[k][2][1], stretch, 1e-5 * stretch);
+    EXPECT_NEAR(result.nodal[k].back()[1], -stretch, 0.02 * stretch);
+  }
+}
+
+// Points without neighbors fly on, as 'Elastic' has no force on them.
+TEST(DialectOfPeridigm, LonePointsFlyOn) {
+  const RunFolder folder;
+  const std::string deck =
+      section("Discretization", key("NeighborhoodType", "Spherical") + grid_of({2, 1, 1}, {4, 1, 1})) + solid("1.0") +
+      section("Boundary Conditions",
+              key("Low Node Set", "1") + along("low", "Initial Velocity", "Low Node Set", "x", "3")) +
+      explicit_steps("1e-5", "1e-6") + peer_output("Output", folder / "alone", "10", {"Displacement"});
+  ASSERT_TRUE(run(folder.write("alone.xml", whole(deck)), folder.world));
+  if (folder.world.rank() != 0) return;
+  const std::vector<double> x = last_of(io::read_result(folder / "alone.e"), "DisplacementX");
+  EXPECT_NEAR(x[0], 3e-5, 1e-15);
+  EXPECT_EQ(x[1], 0);
+}
+
+// Of several loads on a point along an axis the last one counts, also with node sets of the mesh; in our decks they add
+// up.
+TEST(DialectOfPeridigm, TheLastLoadCounts) {
+  const RunFolder folder(Lattice{.nx = 2, .ny = 2, .nz = 2});
+  const auto displacement = [&](const std::string& name, bool theirs) {
+    const std::string deck =
+        section("Discretization", key("Type", "Exodus") + key("Input Mesh File", "bar.g")) + solid("2.1e-3") +
+        section("Boundary Conditions",
+                along("one", "Body Force", "foot", "x", "1e6") + along("two", "Body Force", "foot", "x", "2e6")) +
+        explicit_steps("1e-9", "1e-9") +
+        (theirs ? peer_output("Output", folder / name, "1", {"Force_Density"})
+                : own_output(folder / (name + ".e"), "1", {"Force_Density"}));
+    EXPECT_TRUE(run(folder.write(name + ".xml", whole(deck)), folder.world));
+    return folder.world.rank() == 0 ? std::ranges::max(io::read_result(folder / (name + ".e")).nodal[0].front()) : 0;
+  };
+  const double theirs = displacement("theirs", true), ours = displacement("ours", false);
+  if (folder.world.rank() != 0) return;
+  EXPECT_EQ(theirs, 2e6);
+  EXPECT_EQ(ours, 3e6);
+}
+
+// Sums over a block, and the point nearest to a place: of volumes 8 and 1, of the coordinate that of the cell there.
+TEST(DialectOfPeridigm, SumsAndNearestPoints) {
+  const RunFolder folder;
+  const std::string classes =
+      section("Compute Class Parameters",
+              section("sum", key("Compute Class", "Block_Data") + key("Calculation Type", "Sum") +
+                                 key("Block", "block_1") + key("Variable", "Volume") + key("Output Label", "Whole")) +
+                  section("gauge", key("Compute Class", "Nearest_Point_Data") + typed("X", "double", "1.6") +
+                                       typed("Y", "double", "0.4") + typed("Z", "double", "0.4") +
+                                       key("Variable", "Displacement") + key("Output Label", "Gauge")));
+  const std::string deck =
+      section("Discretization", grid_of({2, 2, 2}, {2, 2, 2})) + solid("1.0") + classes +
+      section("Boundary Conditions", along("x", "Prescribed Displacement", "block_1", "x", "x*t")) +
+      explicit_steps("1e-6", "1e-6") + peer_output("Output", folder / "gauge", "1", {"Displacement", "Whole", "Gauge"});
+  ASSERT_TRUE(run(folder.write("gauge.xml", whole(deck)), folder.world));
+  if (folder.world.rank() != 0) return;
+  const Table table = read_history(folder / "gauge.csv");
+  EXPECT_EQ(table.at("Sum_Volume(block_1)").back(), 8);
+  EXPECT_NEAR(table.at("Mean_Displacement_X(Gauge Node Set)").back(), 1.5e-6, 1e-15);
 }
 
 // A number that no point has.

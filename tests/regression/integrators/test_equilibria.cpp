@@ -114,9 +114,9 @@ TEST(SlowLoading, FoamThatPartsIsTold) {
     EXPECT_EQ(files.error, "");
     return files.said.find("points have failed (Failure Strain)") != std::string::npos;
   };
-  const bool parted = told("4e-4"), pressed = told("-1e-4");
+  const bool drawn = told("4e-4"), pressed = told("-1e-4");
   if (Communicator().rank() > 0) return;
-  EXPECT_TRUE(parted);
+  EXPECT_TRUE(drawn);
   EXPECT_FALSE(pressed);
 }
 

@@ -306,7 +306,7 @@ TEST(Monitor, BodiesThatPassThroughSoftSurfacesAreSeen) {
   EXPECT_EQ(folder.world.sum(tells ? 1.0 : 0.0), 1) << "the rank that has the point: " << o.said;
 }
 
-// Contact that holds is no passing, by points that meet corners or middles; nor are bodies that stand in each other.
+// Contact that holds is no interpenetration, by points that meet corners or middles; nor are bodies that stand in each other.
 TEST(Monitor, BodiesThatPressEachOtherDoNotPass) {
   const RunFolder folder;
   for (const double aside : {0.0, 0.5e-3}) {

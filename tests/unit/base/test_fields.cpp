@@ -17,7 +17,7 @@ struct Record {
 struct State {
   FieldSet fields;
   PointField<Vector> velocity = fields.of_points<Vector>({.name = "velocity", .kept = true});
-  PointField<double> passing = fields.of_points<double>({.name = "passing"});
+  PointField<double> transient = fields.of_points<double>({.name = "transient"});
   PointField<std::uint8_t> mark = fields.of_points<std::uint8_t>({.name = "mark", .kept = true}, When::if_used);
   PointField<Record> records = fields.add<std::vector<Record>>(
       At::integration_point, {{.name = "first", .width = 1}, {.name = "second", .kept = true, .width = 1}});
@@ -31,7 +31,7 @@ State filled() {
   state.fields.resize(2);
   state.records.use(4);
   state.velocity[1] = Vector(1, 2, 3);
-  state.passing[0] = 7;
+  state.transient[0] = 7;
   state.records[2].second = 5;  // of the first point, at its first place
   return state;
 }
@@ -70,7 +70,7 @@ TEST(Fields, ComeBackFromASnapshot) {
   EXPECT_EQ(other.mark[1], 3);
   EXPECT_EQ(other.records[2].second, 5);
   EXPECT_EQ(other.records[2].first, 1) << "is not kept";
-  EXPECT_EQ(other.passing[0], 0) << "is not kept";
+  EXPECT_EQ(other.transient[0], 0) << "is not kept";
 }
 
 TEST(Fields, BytesAreThoseOfTheValues) {

@@ -20,7 +20,6 @@ inline const std::string full_deck = R"xml(<?xml version="1.0"?>
     <Parameter name="Input Mesh File" type="string" value="bar.txt"/>
     <Parameter name="Influence Function" type="string" value="Cubic Decay"/>
     <Parameter name="Degenerate Points" type="string" value="Drop"/>
-    <Parameter name="Trial Reads" type="bool" value="false"/>
   </ParameterList>
   <ParameterList name="Node Sets">
     <Parameter name="low" type="string" value="z &lt; 1e-3"/>

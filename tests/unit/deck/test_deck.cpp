@@ -25,7 +25,6 @@ TEST(Deck, ReadsPoints) {
   EXPECT_EQ(deck.discretization.mesh, folder / "bar.txt");
   EXPECT_EQ(deck.discretization.influence, Influence::cubic_decay);
   EXPECT_EQ(deck.discretization.degenerate, DegeneratePoints::drop);
-  EXPECT_FALSE(deck.discretization.trial_reads);
   ASSERT_EQ(deck.node_sets.size(), 1u);
   EXPECT_EQ(deck.node_sets[0].name, "low");
   EXPECT_NE(deck.node_sets[0].where(0, 0, 0.5e-3, 0), 0);
@@ -310,7 +309,6 @@ TEST(Deck, HasDefaults) {
   const Deck deck = folder.read(small_deck);
   EXPECT_EQ(deck.discretization.influence, Influence::one);
   EXPECT_EQ(deck.discretization.degenerate, DegeneratePoints::error);
-  EXPECT_TRUE(deck.discretization.trial_reads);
   EXPECT_TRUE(deck.node_sets.empty());
   EXPECT_TRUE(deck.conditions.empty());
   EXPECT_EQ(residual_of(deck.materials[0].stabilization), ResidualKind::both_gradients);

@@ -119,6 +119,9 @@ const std::vector<Case> names = {
      R"("Block Names" type="string" value="block_2"/> <Parameter name="Colour" type="string" value="red"/>)",
      "Blocks > plate > Colour: unknown key; expected one of Block Names, Material, Horizon, Horizon Factor, "
      "Separate Body, Bonds Across Voids, Damage Model, Initial Temperature"},
+    {"KeyThatIsGone", R"("Type" type="string" value="Text File"/>)",
+     R"("Type" type="string" value="Text File"/> <Parameter name="Trial Reads" type="bool" value="false"/>)",
+     "Discretization > Trial Reads: unknown key; leave it out: no file is read by a forked process any more"},
     {"UnknownSection", R"(<ParameterList name="Solver">)",
      R"(<ParameterList name="Node Sts"/><ParameterList name="Solver">)",
      "Node Sts: unknown section (did you mean 'Node Sets'?)"},
@@ -209,12 +212,13 @@ const std::vector<Case> names = {
      "zero-energy modes and takes none; expected no such key"},
     {"StabilizationOfOrdinaryBonds", R"(value="Elastic Correspondence")", R"(value="Elastic")",
      "Materials > steel > Stabilization: unknown key for Material Model 'Elastic'; it belongs to 'Elastic "
-     "Correspondence', 'Elastic Plastic Correspondence', 'Metal Foam Correspondence', 'Polymer Foam Correspondence'"},
+     "Correspondence', 'Elastic Plastic Correspondence', 'Metal Foam Correspondence', 'Polymer Foam Correspondence', "
+     "'Hyperelastic', 'User Library'"},
     {"PeridigmsNeedleman", "Elastic Plastic Correspondence", "Viscoplastic Needleman Correspondence",
      "Materials > copper > Material Model: 'Viscoplastic Needleman Correspondence' (did you mean 'Elastic Plastic "
      "Correspondence'? its power laws are those of 'Elastic Plastic Correspondence', Hardening and Rate); expected one "
      "of Elastic, Elastic Correspondence, Elastic Plastic Correspondence, Metal Foam Correspondence, Polymer Foam "
-     "Correspondence"},
+     "Correspondence, Hyperelastic, User Library"},
 };
 INSTANTIATE_TEST_SUITE_P(Names, OneProblem, testing::ValuesIn(names), name_of);
 
@@ -469,7 +473,7 @@ TEST(DeckErrors, AnEmptyDeckLacksTheRequiredSections) {
 TEST(DeckErrors, MalformedXmlNamesTheLine) {
   const DeckFolder folder;
   EXPECT_EQ(folder.error(changed(full_deck, "z &lt; 1e-3", "z < 1e-3")),
-            "deck.xml: 1 problem\n  line 12: malformed XML: invalid character in attribute value (inside a value write "
+            "deck.xml: 1 problem\n  line 11: malformed XML: invalid character in attribute value (inside a value write "
             "&lt; for < and &amp; for &, and close its quotes)");
   EXPECT_EQ(folder.error("<ParameterList>\n<ParameterList name=\"Solver\">\n</ParameterList>\n"),
             "deck.xml: 1 problem\n  line 4: malformed XML: file ended before closing element 'ParameterList' from line "

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "deck_under_test.hpp"
 
@@ -126,8 +127,16 @@ TEST(DeckOfPeridigm, Grid) {
   EXPECT_EQ(deck.discretization.grid.points, (std::array<int, 3>{8, 2, 2}));
   EXPECT_EQ(
       folder.error(changed(small_deck, old, grid)),
-      "deck.xml: 1 problem\n  Discretization > NeighborhoodType: missing; expected 'Spherical': without it Peridigm "
-      "takes boxes for neighborhoods, which are not known here");
+      "deck.xml: 1 problem\n  Discretization > NeighborhoodType: missing; expected 'Spherical', or 'Box' for what "
+      "Peridigm takes without this key");
+  EXPECT_FALSE(deck.discretization.grid.boxes);
+  const std::string theirs =
+      changed(changed(small_deck, old, grid), poisson, poisson + key("Disable Plasticity", "bool", "false"));
+  const Deck boxes = folder.read(theirs);
+  EXPECT_TRUE(boxes.discretization.grid.boxes);
+  EXPECT_TRUE(told(boxes,
+                   "Discretization > NeighborhoodType is missing: families are boxes of cells, as in Peridigm, not "
+                   "the points within the horizon"));
 }
 
 TEST(DeckOfPeridigm, SetsOfPointsByNumber) {
@@ -201,28 +210,30 @@ TEST(DeckOfPeridigm, OutputsBecomeFieldsAndHistory) {
   EXPECT_EQ(deck.history.file, "bar.csv");
   EXPECT_EQ(deck.history.frequency, 10);
   EXPECT_EQ(deck.history.variables, std::vector<std::string>{"Max_Von_Mises_Stress(block_1)"});
-  EXPECT_EQ(
-      deck.notes,
-      (std::vector<std::string>{
-          "Output2 > Output Variables > Global_Kinetic_Energy goes into History: Kinetic_Energy, by the velocities "
-          "half a step before and after, which may be below zero where they turn round; Peridigm's, by one of "
-          "them, may not",
-          "Output2 > Output Variables > Global_Angular_Momentum is not written: there is no such number here",
-          "Output2 > Output Variables > Highest_Stress goes into History: Max_Von_Mises_Stress(block_1)"}));
+  for (const std::string note :
+       {"Output2 > Output Variables > Global_Kinetic_Energy goes into History: Kinetic_Energy, by the velocities "
+        "half a step before and after, which may be below zero where they turn round; Peridigm's, by one of "
+        "them, may not",
+        "Output2 > Output Variables > Global_Angular_Momentum is not written: there is no such number here",
+        "Output2 > Output Variables > Highest_Stress goes into History: Max_Von_Mises_Stress(block_1)"}) {
+    EXPECT_TRUE(told(deck, note)) << note;
+  }
 }
 
 TEST(DeckOfPeridigm, KeysWithoutEffectAreTold) {
   const DeckFolder folder;
   const Deck deck = folder.read(full_deck);
-  EXPECT_EQ(deck.notes, (std::vector<std::string>{
-                            "Blocks have horizons of their own: points of two of them are neighbors below the mean of "
-                            "both, and feel each other's forces; in Peridigm each takes those within its own horizon",
-                            "Contact > Models > touch > Contact Radius is the distance from which points push each "
-                            "other; those of two bodies that start nearer do so from that distance on, in Peridigm "
-                            "from the radius on, so that they push at once",
-                            "Verbose has no effect here: the program says what it does at all times",
-                            "Contact > Search Radius has no effect here: the program finds out when to search",
-                            "Contact > Search Frequency has no effect here: the program finds out when to search"}));
+  for (const std::string note :
+       {"Blocks have horizons of their own: points of two of them are neighbors below the mean of "
+        "both, and feel each other's forces; in Peridigm each takes those within its own horizon",
+        "Contact > Models > touch > Contact Radius is the distance from which points push each "
+        "other; those of two bodies that start nearer do so from that distance on, in Peridigm "
+        "from the radius on, so that they push at once",
+        "Verbose has no effect here: the program says what it does at all times",
+        "Contact > Search Radius has no effect here: the program finds out when to search",
+        "Contact > Search Frequency has no effect here: the program finds out when to search"}) {
+    EXPECT_TRUE(told(deck, note)) << note;
+  }
 }
 
 // Everything that is not here is named, in one error.
@@ -241,20 +252,127 @@ TEST(DeckOfPeridigm, WhatIsMissingIsNamed) {
                      list("Boundary Conditions", heat) + output("Output1", "1", {"Velocity"}) +
                      output("Output2", "1", {"Displacement"}) + R"(<ParameterList name="Solver">)");
   const std::string error = folder.error(text);
-  EXPECT_TRUE(error.starts_with("deck.xml: 7 problems\n")) << error;
+  EXPECT_TRUE(error.starts_with("deck.xml: 5 problems\n")) << error;
   for (const std::string named :
-       {"Materials > copper > Apply Shear Correction Factor: 'true'; expected false: there is no correction of moduli "
-        "at "
-        "surfaces",
-        "Materials > copper > Thermal Expansion Coefficient: '1e-5'; expected 0: there is no thermal expansion",
-        "Output2: a second section with fields, after 'Output1'; there is one file of fields: put all into one of them",
-        "Boundary Conditions > heat > Type: 'Prescribed Temperature' (no heat flows here)",
+       {"Materials > copper > Thermal Expansion Coefficient: '1e-5'; expected 0: there is no thermal expansion",
+        "Boundary Conditions > heat > Type: 'Prescribed Temperature': no heat flows here",
         "Solver > Implicit: unknown section; there are 'Verlet', and 'QuasiStatic' for loads without inertia",
         "Blocks > foam > Damage Model: 'crack' is not defined; expected the name of a section of Damage Models: "
         "brittle",
-        "Damage Models > brittle > Damage Model: 'Interface Aware'; expected"}) {
+        "Damage Models > brittle > Damage Model: 'Interface Aware': bonds across an interface"}) {
     EXPECT_NE(error.find("\n  " + named), std::string::npos) << named << "\nin " << error;
   }
+}
+
+// Keys, conditions and sections that hang on something missing do not make further problems.
+TEST(DeckOfPeridigm, WhatIsMissingIsNamedOnce) {
+  const DeckFolder folder;
+  std::string text = changed(small_deck, R"("Elastic Plastic Correspondence")", R"("Pals")");
+  text = changed(text, poisson, poisson + key("Deviatoric Influence Function", "string", "One"));
+  text = changed(text, R"(<Parameter name="Final Time" type="double" value="2e-4"/>)",
+                 key("Final Time", "double", "2e-4") + list("QuasiStatic", key("Number of Load Steps", "int", "1")));
+  text = changed(text, R"(<ParameterList name="Solver">)",
+                 list("Boundary Conditions",
+                      list("hot", key("Type", "string", "Thermal Flux") + key("Node Set", "string", "set"))) +
+                     list("Interfaces", "") + R"(<ParameterList name="Solver">)");
+  const std::string error = folder.error(text);
+  EXPECT_TRUE(error.starts_with("deck.xml: 3 problems\n")) << error;
+  for (const char* named :
+       {"Interfaces: unknown section; there are no interfaces", "Materials > copper > Material Model: 'Pals': ",
+        "Boundary Conditions > hot > Type: 'Thermal Flux': no heat flows here"}) {
+    EXPECT_NE(error.find(std::string("\n  ") + named), std::string::npos) << named << "\nin " << error;
+  }
+}
+
+// Only in its decks: in ours each of them is an error.
+TEST(DeckOfPeridigm, BracesAndDoubleKeysAreReadAsItDoes) {
+  const DeckFolder folder;
+  const std::string conditions =
+      list("Boundary Conditions", list("push", key("Type", "string", "Initial Velocity") +
+                                                   key("Coordinate", "string", "x") + key("Coordinate", "string", "z") +
+                                                   key("Value", "string", "if (x &gt; 1) \\{ value = 2; \\}")));
+  const std::string ours =
+      changed(small_deck, R"(<ParameterList name="Solver">)", conditions + R"(<ParameterList name="Solver">)");
+  const std::string error = folder.error(ours);
+  EXPECT_NE(error.find("push > Coordinate: given 2 times"), std::string::npos) << error;
+  EXPECT_NE(error.find("push > Value: "), std::string::npos) << error;
+  const Deck deck = folder.read(changed(ours, poisson, poisson + key("Disable Plasticity", "bool", "false")));
+  const auto& push = std::get<InitialVelocity>(deck.conditions[0].kind);
+  EXPECT_EQ(push.components, std::vector{2});
+  EXPECT_EQ(push.value(3, 0, 0, 0), 2);
+  EXPECT_TRUE(told(deck,
+                   "Boundary Conditions > push > Coordinate is given more than once: the last one counts, as in "
+                   "Peridigm"));
+}
+
+TEST(DeckOfPeridigm, DisabledPlasticityIsElastic) {
+  const DeckFolder folder;
+  const std::string text = changed(small_deck, R"("Elastic Plastic Correspondence")", R"("Elastic Plastic")");
+  EXPECT_NE(folder.error(text).find("'Elastic Plastic': ordinary state-based plasticity is not there"),
+            std::string::npos);
+  const Deck deck = folder.read(changed(text, poisson, poisson + key("Disable Plasticity", "bool", "true")));
+  EXPECT_EQ(deck.materials[0].formulation, Formulation::ordinary);
+}
+
+// Peridigm adds up increments: with the value v(t) points are at v(t) − v(0).
+TEST(DeckOfPeridigm, DisplacementsAreTakenFromTheirStart) {
+  const DeckFolder folder;
+  const auto conditions = [&](const std::string& value) {
+    return list("Boundary Conditions",
+                list("pull", key("Type", "string", "Prescribed Displacement") + key("Coordinate", "string", "x") +
+                                 key("Value", "string", value)));
+  };
+  const auto value = [&](const std::string& text, bool theirs) {
+    const std::string deck =
+        changed(small_deck, R"(<ParameterList name="Solver">)", conditions(text) + R"(<ParameterList name="Solver">)");
+    const std::string own = key("Disable Plasticity", "bool", "false");
+    return std::get<PrescribedMotion>(
+               folder.read(theirs ? changed(deck, poisson, poisson + own) : deck).conditions[0].kind)
+        .value;
+  };
+  EXPECT_EQ(value("x*exp(t)", true)(2, 0, 0, 0), 0);
+  EXPECT_EQ(value("x*exp(t)", true)(2, 0, 0, 1), 2 * std::exp(1.0) - 2);
+  EXPECT_EQ(value("x*exp(t)", false)(2, 0, 0, 0), 2);
+  EXPECT_EQ(value("0.5", true)(2, 0, 0, 1), 0.5);  // never changes: taken whole
+  EXPECT_EQ(value("x*t", true).text(), "x*t");     // nothing to take off
+}
+
+TEST(DeckOfPeridigm, SecondFilesOfFieldsAndLoadSteps) {
+  const DeckFolder folder;
+  const std::string end = R"(<Parameter name="Final Time" type="double" value="2e-4"/>)";
+  std::string text =
+      changed(small_deck, end,
+              list("QuasiStatic", key("Time Steps", "string", "0.0 0.1 0.5 1.0") +
+                                      list("Adaptive Load-Stepping", key("Maximum Load Step", "double", "1"))));
+  text = changed(text, R"(<ParameterList name="Solver">)",
+                 output("Output1", "20", {"Displacement", "Lambda"}) +
+                     output("Output2", "5", {"Velocity", "Displacement"}) + R"(<ParameterList name="Solver">)");
+  const Deck deck = folder.read(text);
+  EXPECT_EQ(deck.output.variables, (std::vector<std::string>{"Displacement", "Velocity"}));
+  EXPECT_EQ(deck.output.frequency, 5);
+  EXPECT_EQ(deck.solver.quasi_static->load_steps, 10);
+  EXPECT_EQ(deck.solver.final_time, 1);
+  EXPECT_TRUE(told(deck,
+                   "Output1 > Output Variables > Lambda is not written: there is no such field here; there is "
+                   "Equivalent_Plastic_Strain"));
+}
+
+TEST(DeckOfPeridigm, SumsAndNearestPointsAreColumns) {
+  const DeckFolder folder;
+  const std::string classes =
+      list("sum", key("Compute Class", "string", "Block_Data") + key("Calculation Type", "string", "Sum") +
+                      key("Block", "string", "block_1") + key("Variable", "string", "Force") +
+                      key("Output Label", "string", "Pull")) +
+      list("gauge", key("Compute Class", "string", "Nearest_Point_Data") + key("X", "double", "0.1") +
+                        key("Y", "double", "0.2") + key("Z", "double", "0.3") + key("Variable", "string", "Volume") +
+                        key("Output Label", "string", "Gauge"));
+  const Deck deck = with(folder, R"(<ParameterList name="Solver">)",
+                         list("Compute Class Parameters", classes) + output("Output", "1", {"Pull", "Gauge"}) +
+                             R"(<ParameterList name="Solver">)");
+  EXPECT_EQ(deck.history.variables, (std::vector<std::string>{"Sum_Force_X(block_1)", "Sum_Force_Y(block_1)",
+                                                              "Sum_Force_Z(block_1)", "Mean_Volume(Gauge Node Set)"}));
+  ASSERT_EQ(deck.node_sets.size(), 1u);
+  EXPECT_EQ(deck.node_sets[0].nearest, Vector(0.1, 0.2, 0.3));
 }
 
 TEST(DeckOfPeridigm, OtherFormsOfADeckAreRefused) {
@@ -309,6 +427,55 @@ const char* const fracturing = R"(Peridigm:
     Verlet: {Safety Factor: 0.7}
 )";
 
+// Its bottom vector (1 4 0) of a plane across y: the part in the plane is (1 0 0), of length 1.
+TEST(DeckOfPeridigm, SkewRectanglesAreTheirPartInThePlane) {
+  const DeckFolder folder;
+  const std::string crack = R"(Type: "Rectangular_Plane"
+        Lower_Left_Corner_X: 0.0
+        Lower_Left_Corner_Y: 0.5
+        Lower_Left_Corner_Z: 0.0
+        Bottom_Unit_Vector_X: 2.0
+        Bottom_Unit_Vector_Y: 4.0
+        Bottom_Unit_Vector_Z: 0.0
+        Bottom_Length: 0.5
+        Side_Length: 1.0
+        Normal_X: 0.0
+        Normal_Y: 1.0
+        Normal_Z: 0.0)";
+  const std::string text = changed(fracturing, "Shear Modulus: 30.0e9", "Shear Modulus: 30.0e9, Enable Flaw: false");
+  const std::size_t from = text.find("Type: \"Disk\""), to = text.find("Radius: 0.2");
+  const Deck deck = folder.read(text.substr(0, from) + crack + text.substr(to + std::string("Radius: 0.2").size()));
+  const RectangularCrack rectangle = std::get<RectangularCrack>(deck.discretization.cracks[0]);
+  EXPECT_EQ(rectangle.along, Vector::UnitX());
+  EXPECT_EQ(rectangle.length, 0.25);  // in units of the given vector's part, 2
+  EXPECT_EQ(rectangle.width, 0.5);
+}
+
+TEST(DeckOfPeridigm, SolversFollowEachOther) {
+  const DeckFolder folder;
+  const auto two = [](const std::string& first, const std::string& second) {
+    return changed(fracturing, "  Solver:\n    Final Time: 1.0e-5\n    Verlet: {Safety Factor: 0.7}\n",
+                   "  Solver1:\n    Final Time: 1.0\n    " + first +
+                       "\n  Solver2:\n    Initial Time: 1.0\n    Final Time: 2.5\n    " + second + "\n");
+  };
+  const std::string slow = "QuasiStatic: {Number of Load Steps: 2}",
+                    slower = "NOXQuasiStatic: {Number of Load Steps: 1}";
+  const std::string without = ", Damage Model: \"growing\"";
+  const Deck one = folder.read(changed(two(slow, slower), without, ""));
+  EXPECT_FALSE(one.next_solver);
+  EXPECT_EQ(one.solver.final_time, 2.5);
+  EXPECT_EQ(one.solver.quasi_static->load_steps, 5);  // of 0.5 s: 0, 0.5, 1 and 2.5 s are among their ends
+  const Deck both = folder.read(two(slow, "Verlet: {Fixed dt: 0.5}"));
+  ASSERT_TRUE(both.next_solver);
+  EXPECT_EQ(both.solver.final_time, 1);
+  EXPECT_EQ(both.next_solver->initial_time, 1);
+  EXPECT_EQ(both.next_solver->fixed_dt, 0.5);
+  EXPECT_TRUE(both.next_solver->keeps_velocities);
+  EXPECT_NE(
+      folder.error(two("Verlet: {Fixed dt: 0.5}", slow)).find("expected explicit steps (Verlet) after equilibria"),
+      std::string::npos);
+}
+
 // Its sections may be the outermost keys, too; the places of errors are those of the text.
 TEST(DeckOfPeridigm, YamlNeedsNoKeyAroundAll) {
   const DeckFolder folder;
@@ -335,6 +502,16 @@ TEST(DeckOfPeridigm, YamlIsReadAsXml) {
   const DiskCrack disk = std::get<DiskCrack>(deck.discretization.cracks[0]);
   EXPECT_EQ(disk.normal, Vector::UnitZ());
   EXPECT_EQ(disk.radius, 0.2);
+}
+
+TEST(DeckOfPeridigm, ThoseOfOthersAreNamedInOneLine) {
+  const DeckFolder folder;
+  EXPECT_EQ(folder.error("PeriLab:\n  Models:\n    A: 1\n  Outputs:\n    B: 1\n  Blocks:\n    C: 1\n"),
+            "deck.xml: 1 problem\n  Models, Outputs: this is a deck of PeriLab, whose words inputs/from-perilab.md "
+            "translates; its lists of points and sets can be read as they are");
+  EXPECT_EQ(folder.error("{\"num_cells\": {\"value\": [4, 4, 4]}, \"horizon\": {\"value\": 0.1}}"),
+            "deck.xml: 1 problem\n  num_cells: this is an input of CabanaPD, whose words inputs/from-cabanapd.md "
+            "translates");
 }
 
 TEST(DeckOfPeridigm, DamageThatIsNotKnownIsRefused) {

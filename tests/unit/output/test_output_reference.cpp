@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "materials/state_variables.hpp"
 #include "output/observables.hpp"
 
 TEST(OutputReference, IsUpToDate) {
@@ -16,4 +17,12 @@ TEST(OutputReference, IsUpToDate) {
   text << std::ifstream(page).rdbuf();
   EXPECT_TRUE(text.str() == strut::observables_page())
       << page << " differs from the tables: run this test with STRUT_WRITE_KEYS=1 in the environment";
+}
+
+TEST(OutputReference, EveryVariableHasAMeaningAndAUnit) {
+  for (const strut::Observable& one : strut::observables_of_all_laws()) {
+    EXPECT_FALSE(one.unit.empty()) << one.name;
+    EXPECT_FALSE(one.meaning.empty()) << one.name;
+    EXPECT_NE(one.meaning, strut::materials::state_variable("").meaning) << one.name << ": its law has no entry";
+  }
 }

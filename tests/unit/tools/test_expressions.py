@@ -5,8 +5,7 @@ import pathlib
 import unittest
 
 import tool_test  # noqa: F401
-from decks import value_at, value_of
-from expressions import NoExpression, evaluated
+from decks import NoExpression, evaluated, value_at, value_of
 
 TABLE = pathlib.Path(__file__).resolve().parents[1] / "base" / "expressions.txt"
 PLACE = {"x": 3.0, "y": 0.0, "z": 0.0, "t": 0.0}

@@ -21,7 +21,7 @@ TEST(Skeleton, KelvinFoamHasTheEdgesOfTruncatedOctahedra) {
   const double a = cell * std::cbrt(pi / 3);
   const double gap = 1e-6 * a;
   const Vector size = Vector::Constant(3 * a - 2 * gap);
-  const Skeleton skeleton = foam_skeleton(size, cell, 0, 1);
+  const Skeleton skeleton = foam_skeleton(size, {cell, 0, 1});
   double length = 0;
   int edges = 0;
   for (const Edge& edge : skeleton.edges) {
@@ -43,7 +43,7 @@ TEST(Skeleton, FourStrutsMeetAtEveryVertex) {
   const double cell = 0.3;
   for (const double irregularity : {0.1, 0.5, 1.0}) {
     std::map<std::array<long, 3>, int> contact_pair;
-    for (const Edge& edge : foam_skeleton(size, cell, irregularity, 7).edges) {
+    for (const Edge& edge : foam_skeleton(size, {cell, irregularity, 7}).edges) {
       for (const Vector& x : {edge.a, edge.b}) {
         if ((x.array() < 0).any() || (x.array() > size.array()).any()) continue;
         const Vector place = x / (1e-7 * cell);  // ends of edges from different cells differ by rounding only
@@ -67,7 +67,7 @@ TEST(Skeleton, TheSizeOfCellsDoesNotDependOnTheIrregularity) {
     // On the lattice there are 9³ + 10³ seeds for 2 · 9.5³ cells. Of those within half a lattice constant of the walls
     // a few leave and others enter: the square root of their number, three times.
     const double uncertain = 9 * 9 * 9 + 10 * 10 * 10 - expected + 3 * std::sqrt(6 * expected * 0.5 / 9.5);
-    EXPECT_NEAR(static_cast<double>(foam_skeleton(size, cell, irregularity, 3).cells), expected, uncertain);
+    EXPECT_NEAR(static_cast<double>(foam_skeleton(size, {cell, irregularity, 3}).cells), expected, uncertain);
   }
 }
 

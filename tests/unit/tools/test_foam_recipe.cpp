@@ -206,8 +206,25 @@ TEST_F(FoamRecipe, CellsAtTheFacesAreInTheNodeSets) {
   }
 }
 
+// By density to 0.1 %, with partly filled voxels; by the thickness what it says.
+TEST_F(FoamRecipe, LatticesAreMadeByName) {
+  for (const std::string name : {"octet", "kelvin", "gyroid", "diamond-sheet"}) {
+    const std::string recipe = "shape = lattice\nname = body\ncount = 2 1 1\ncell = 0.5\nspacing = 0.025\ncells = 2\n";
+    const testing::Outcome outcome = make(recipe + "relative_density = 0.2\nlattice = " + name + "\n");
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    double volume = 0;
+    for (const io::PartialCell& cell : io::read_mesh(path("mesh.g")).blocks[0].cells) volume += cell.volume;
+    EXPECT_NEAR(volume / (0.2 * 0.25), 1, 1e-3) << outcome.text;
+  }
+  const testing::Outcome thick = make(
+      "shape = lattice\nlattice = bcc\nsize = 1 1 1\ncell = 0.5\nspacing = 0.025\nthickness = 0.1\nperiodic = x y z\n");
+  EXPECT_NE(thick.text.find("4 voxels = 0.1 m thick"), std::string::npos) << thick.text;
+  EXPECT_NE(thick.text.find("8 struts a cell"), std::string::npos);
+}
+
 TEST_F(FoamRecipe, WrongRecipesAreRefused) {
   const std::string density = "relative_density = 0.1\n";
+  const std::string lattice = "shape = lattice\ncount = 1\ncell = 1\nspacing = 0.05\nlattice = ";
   const std::pair<std::string, const char*> wrong[] = {
       {cube, "lacks the key 'relative_density'"},
       {cube + "relative_density = 10 %\n", "line 6: relative_density is '10 %', expected a number between 0 and 1"},
@@ -230,7 +247,19 @@ TEST_F(FoamRecipe, WrongRecipesAreRefused) {
       {"shape = foam\nsize = 1 1 1\nspacing = 0.1\ncell = 0.3\n" + density, "fewer than 4 spacings"},
       {"shape = foam\nsize = 1 1 0.3\nspacing = 0.01\ncell = 0.4\n" + density, "the box is smaller than a cell"},
       {"shape = foam\nsize = 1 1 1\nspacing = 0.05\ncell = 0.4\nrelative_density = 0.01\n", "take a smaller spacing"},
-      {"shape = foam\nsize = 1 1 1\nspacing = 1e-4\ncell = 0.4\n" + density, "more than 10⁸ cells"}};
+      {"shape = foam\nsize = 1 1 1\nspacing = 1e-4\ncell = 0.4\n" + density, "more than 10⁸ cells"},
+      {cube + density + "sizes = 2\n", "line 7: sizes is '2', expected a number from 0 to 0.6"},
+      {cube + density + "relax = 1.5\n", "relax is no whole number"},
+      {cube + density + "stretch = 1 1 9\n", "expected three numbers from 0.2 to 5"},
+      {cube + density + "section = square\n", "section is 'square', expected round or three-cornered"},
+      {cube + density + "thickness = 0.1\n", "a foam has no key 'thickness'"},
+      {cube + density + "periodic = xy\n", "expected axes: x, y, z, with blanks between"},
+      {lattice + "octett\n" + density, "lattice is 'octett', expected octet or bcc"},
+      {lattice + "octet\n", "lacks the key 'relative_density'"},
+      {lattice + "octet\nthickness = 0.1\n" + density, "thickness and relative_density exclude each other"},
+      {lattice + "gyroid\nthickness = 0.1\n", "has no thickness"},
+      {lattice + "bcc\nsize = 1 1 1\n" + density, "count and size exclude each other"},
+      {lattice + "bcc\nseed = 2\n" + density, "a lattice has no key 'seed'"}};
   for (const auto& [recipe, part] : wrong) {
     const testing::Outcome outcome = make(recipe);
     EXPECT_EQ(outcome.status, 1) << recipe;

@@ -237,9 +237,9 @@ TEST_F(MeshTool, GradingThatCannotBeIsRefused) {
        {std::pair(box + "grading = 0.9\n", "line 4: grading is '0.9', expected a number from 1 to 2"),
         {box + "grading = 1.1\ncoarsest = 0.05\n", "line 5: coarsest is less than the spacing"},
         {box + "grading = 1.1\nuniform = 0\n", "line 5: uniform is '0', expected a length > 0"},
-        {box + "uniform = 0.5\n", "line 4: a body without grading has no key 'uniform'"},
+        {box + "uniform = 0.5\n", "line 4: a body without the key 'grading' has no key 'uniform'"},
         {lattice + "grading = 1.1\n", "line 5: a lattice cylinder has no key 'grading'"},
-        {lattice + "method = fitted\ncells = 2\n", "line 6: a fitted body has no key 'cells'"}}) {
+        {lattice + "method = fitted\ncells = 2\n", "line 6: a fitted cylinder has no key 'cells'"}}) {
     const testing::Outcome outcome = make(recipe);
     EXPECT_EQ(outcome.status, 1) << recipe;
     EXPECT_NE(outcome.text.find(expected), std::string::npos) << outcome.text;
@@ -252,7 +252,7 @@ TEST_F(MeshTool, WrongRecipesAreRefusedWithTheirLines) {
   for (const char* expected :
        {"line 1: shape is 'cylindre', expected cylinder or cone or box or foam or file (did you mean 'cylinder'?)",
         "line 2: unknown key 'spaceing' (did you mean 'spacing'?)", "line 3: length is '-2', expected a length > 0",
-        "line 5: a cylinder has no key 'size'", "lacks the key 'radius'"}) {
+        "line 5: a lattice cylinder has no key 'size'", "lacks the key 'radius'"}) {
     EXPECT_NE(outcome.text.find(expected), std::string::npos) << outcome.text;
   }
   EXPECT_FALSE(std::filesystem::exists(path("mesh.g")));
@@ -287,7 +287,7 @@ TEST_F(MeshTool, WrongConesAreRefused) {
         std::pair(cone + "top_radius = 1\nmethod = lattice\n", "line 6: a cone has only the method fitted"),
         std::pair(cone + "top_radius = 1\ncentred = point\n", "line 6: a cone has no key 'centred'"),
         std::pair("shape = cylinder\ntop_radius = 1\n" + cone.substr(cone.find("length")),
-                  "line 2: a cylinder has no key 'top_radius'")}) {
+                  "line 2: a lattice cylinder has no key 'top_radius'")}) {
     const testing::Outcome outcome = make(recipe);
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.text.find(expected), std::string::npos) << outcome.text;

@@ -30,7 +30,7 @@ Body drawn(const Vector& size, const Eigen::Array3i& cells, const Inside& inside
 
 Body foam(int factor, double spacing = 0.04) {
   const VoxelGrid grid = grid_of({1, 1.1, 0.9}, spacing, factor);
-  const Skeleton skeleton = foam_skeleton(grid.size, 0.45, 0.5, 3);
+  const Skeleton skeleton = foam_skeleton(grid.size, {0.45, 0.5, 3});
   const auto wanted = static_cast<std::size_t>(0.1 * static_cast<double>(grid.count()));
   return {grid, struts_around(skeleton.edges, grid, wanted).voxels};
 }

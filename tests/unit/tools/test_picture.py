@@ -5,6 +5,7 @@ import os
 import sys
 import unittest
 import unittest.mock
+import xml.etree.ElementTree as tree
 
 from tool_test import InFolder
 
@@ -17,6 +18,7 @@ try:
 except ImportError as error:
     print(f"skipped: {error}")
     sys.exit(77)
+from decks import section
 from picture_parts.result import Result, clock_of
 from PIL import Image
 from scipy.sparse import coo_array
@@ -282,14 +284,7 @@ class Pictures(InFolder):
 
 def deck_of(path, tools, history=""):
     """tools: name -> keys."""
-    def section(name, inside):
-        return f'<ParameterList name="{name}">{inside}</ParameterList>\n'
-
-    def keys(values):
-        return "".join(f'<Parameter name="{k}" type="string" value="{v}"/>' for k, v in values.items())
-    conditions = "".join(section(name, keys(values)) for name, values in tools.items())
-    path.write_text("<ParameterList>" + section("Boundary Conditions", conditions) +
-                    section("History", keys({"Filename": history})) + "</ParameterList>")
+    path.write_text(tree.tostring(section("deck", {"Boundary Conditions": tools, "History": {"Filename": history}}), "unicode"))
     return path
 
 

@@ -338,7 +338,7 @@ class Studies(InFolder):
         self.assertIn("the study does not vary 'spacin' (did you mean 'spacing'?)", error("--converge", "spacin", "bar.study"))
         self.assertIn("bar.study varies spacing itself: leave out --ratio", error("--converge", "spacing", "--ratio", "2", "bar.study"))
         self.assertIn("--order needs --converge", error("--order", "2", "bar.study"))
-        self.assertIn("--grids: expected 2 or 3", error("--converge", "spacing", "--grids", "4", "bar.xml"))
+        self.assertIn("--grids: invalid choice: 4 (choose from 2, 3)", error("--converge", "spacing", "--grids", "4", "bar.xml"))
         (self.folder / "bar.study").write_text(STUDY.replace("1e-3 2e-3", "1e-3 0.99e-3"))
         self.assertIn("spacing = 0.99e-3 and 1e-3 are one grid, of whole numbers of cells of 0.001 m", error("--converge", "spacing", "bar.study"))
         (self.folder / "bar.study").write_text(STUDY.replace("1e-3 2e-3", "1e-3"))

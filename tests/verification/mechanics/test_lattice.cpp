@@ -234,7 +234,7 @@ TEST(GroupTile, AGroupThatDoesNotFillATileWorksOnACopy) {
   const auto rows_of = [&](int count) {
     std::array<int, LaneGroup::width> places;
     for (int l = 0; l < LaneGroup::width; ++l) places[l] = std::min(l, count - 1);
-    const GroupTile<2, 1> tile(states, places, count);
+    const GroupTile<2> tile(states, places, count);
     for (int n = 0; n < 2; ++n) small::lanes(tile.rows()[n]) += 1;
     const bool is_copy = tile.rows() != states.tile_of(0);
     tile.give_back(states, places, count);

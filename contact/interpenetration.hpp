@@ -1,0 +1,35 @@
+// Interpenetration of bodies, whatever the distance at which their points touch.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "topology/domain.hpp"
+
+namespace strut::contact {
+
+struct Interpenetration {
+  int first = 0, second = 0;  // blocks
+  std::int64_t points = 0;    // of either block: inside the other now, but not in the reference state
+  double part = 0;            // these points, as a fraction of the points of the smaller block
+  int point = -1;             // one of them: local index on its owner, −1 on other ranks
+};
+
+// Collective. The first two blocks of different bodies with an interaction that have more than `limit` (a fraction of
+// the smaller one's points) inside each other. A point is inside if it is as deep in the material of the other body as
+// the nearest points of that body (docs/theory.md). Blocks whose bounding boxes are disjoint cost only a reduction.
+std::optional<Interpenetration> find_interpenetration(const Domain& domain, const Contact& contact, double limit);
+
+// Two blocks of different bodies, and this rank's points of them that are inside the other block in the reference
+// state.
+struct Overlap {
+  int first, second;
+  std::vector<int> points;
+};
+
+// Collective. All pairs of blocks whose bounding boxes overlap; `points` may be empty.
+std::vector<Overlap> overlapping_blocks(const Domain& domain);
+
+}  // namespace strut::contact

@@ -1,0 +1,159 @@
+// What Peridigm has and this program has not: reported by name, once, with the reason. What hangs on it (keys of the
+// law, conditions of its field) is taken out, so that no second message misleads.
+#include <algorithm>
+#include <map>
+
+#include "deck/peridigm/peridigm.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+const std::string associated =
+    "gradients of a bond's own neighborhood (bond-associated) are not there; "
+    "'Quadratic Correspondence' (Formulation) has no zero-energy modes either";
+const std::string of_plasticity = "; plasticity is there by correspondence: 'Elastic Plastic Correspondence'";
+
+const std::map<std::string, std::string> missing_laws = {
+    {"Elastic Plastic",
+     "ordinary state-based plasticity is not there (with 'Disable Plasticity' it is 'Elastic')" + of_plasticity},
+    {"Elastic Plastic Hardening", "ordinary state-based plasticity is not there" + of_plasticity},
+    {"Pressure Dependent Elastic Plastic", "ordinary state-based plasticity is not there" + of_plasticity},
+    {"Viscoelastic", "ordinary state-based viscoelasticity is not there, nor another viscoelastic law"},
+    {"Multiphysics Elastic", "a solid with a fluid in its pores is not there"},
+    {"Elastic Bond Based",
+     "bond-based laws are not there, in two dimensions or three; 'Elastic' with a Poisson's "
+     "ratio of 1/4 is the nearest, not the same near surfaces"},
+    {"Pals",
+     "position-aware influence functions are not there; 'Elastic Correspondence' is exact for affine motions, "
+     "too"},
+    {"Linear LPS Partial Volume", "partial volumes of neighbors are not there; 'Elastic' takes whole ones"},
+    {"Elastic Partial Volume", "partial volumes of neighbors are not there; 'Elastic' takes whole ones"},
+    {"Elastic Correspondence Partial Stress", "partial stresses are not there; 'Elastic Correspondence' is"},
+    {"Diffusion", "no heat and no species flow here"},
+    {"Vector Poisson", "no fields but motion are computed here"},
+    {"LCM", "laws of another library cannot be called"},
+    {"Elastic Hypoelastic Correspondence", associated},
+    {"Elastic Plastic Hypoelastic Correspondence", associated},
+    {"Isotropic Hardening Hypoelastic Correspondence", associated},
+    {"Elastic Bond Associated Correspondence", associated},
+    {"Elastic Plastic Bond Associated Correspondence", associated},
+    {"Isotropic Hardening Bond Associated Correspondence", associated},
+    {"Viscoplastic Needleman Correspondence",
+     "it is not there: Hardening and Rate 'Power Law' of 'Elastic Plastic Correspondence' come nearest, without its "
+     "softening (Reference Strain 1) and with the rate factor (1 + rate/rate_0)^M in place of (rate/rate_0)^M"},
+};
+
+const std::map<std::string, std::string> missing_damage = {
+    {"Interface Aware", "bonds across an interface cannot have a model of their own; blocks can"},
+    {"Initial Damage",
+     "write its Bond Filters into Discretization > Bond Filters: bonds do not cross them from the "
+     "start, and do not count as Damage"},
+    {"Johnson Cook", "did you mean 'Johnson-Cook', which fails points by the strain of their metal?"},
+    {"Von Mises Stress",
+     "bonds do not break by stress; by stretch ('Critical Stretch'), energy ('Bond Energy') or the "
+     "strain of a metal they do"},
+};
+
+const std::string no_heat =
+    "no heat flows here, and no body expands by it (a metal's own temperature begins with "
+    "Blocks > Initial Temperature)";
+const std::string no_species = "no fluid and no species flow here";
+
+// Conditions, by the words that their types hold.
+std::string missing_condition(const std::string& type) {
+  const std::string words = tidied(type);
+  const auto holds = [&words](const char* word) { return words.find(word) != std::string::npos; };
+  if (holds("temperature") || holds("thermal") || holds("heat")) return no_heat;
+  if (holds("fluid") || holds("concentration") || holds("pressure")) return no_species;
+  return "";
+}
+
+const std::map<std::string, std::string> missing_sections = {
+    {"Interfaces", "there are no interfaces between elements"},
+    {"Data Loader", "fields are not read from files; conditions take expressions of x, y, z and t"},
+};
+
+const std::map<std::string, std::string> missing_of_mesh = {
+    {"Construct Interfaces", "there are no interfaces between elements"},
+    {"Compute Element-Horizon Intersections", "partial volumes of neighbors are not there"},
+    {"Input FEM Topology File", "finite elements are not coupled"},
+};
+
+// A law without peculiarities in place of the missing one: the rest of the deck is then checked.
+void stand_in(List& material) {
+  material.lists.clear();
+  material.parameters = {{"Material Model", "string", "Elastic"},
+                         {"Density", "double", "1"},
+                         {"Bulk Modulus", "double", "1"},
+                         {"Shear Modulus", "double", "1"}};
+}
+
+void refuse_laws(List& deck, Problems& problems) {
+  bool any_associated = false;
+  if (List* materials = find_list(deck, "Materials")) {
+    for (List& material : materials->lists) {
+      const auto missing = missing_laws.find(value_of(material, "Material Model"));
+      if (missing == missing_laws.end()) continue;
+      any_associated = any_associated || missing->second == associated;
+      problems.add("Materials > " + material.name + " > Material Model",
+                   "'" + missing->first + "': " + missing->second);
+      stand_in(material);
+    }
+  }
+  if (any_associated) {
+    std::erase_if(deck.parameters, [](const Parameter& one) { return one.name.starts_with("Enable Bond-Associated"); });
+  }
+}
+
+void refuse_damage(List& deck, Problems& problems) {
+  List* models = find_list(deck, "Damage Models");
+  if (!models) return;
+  for (List& model : models->lists) {
+    const auto missing = missing_damage.find(value_of(model, "Damage Model"));
+    if (missing == missing_damage.end()) continue;
+    problems.add("Damage Models > " + model.name + " > Damage Model", "'" + missing->first + "': " + missing->second);
+    model.lists.clear();
+    model.parameters = {{"Damage Model", "string", "Critical Stretch"}, {"Critical Stretch", "double", "1"}};
+  }
+}
+
+void refuse_conditions(List& deck, Problems& problems) {
+  List* conditions = find_list(deck, "Boundary Conditions");
+  if (!conditions) return;
+  std::erase_if(conditions->lists, [&problems](const List& condition) {
+    const std::string type = value_of(condition, "Type"), why = missing_condition(type);
+    if (why.empty()) return false;
+    problems.add("Boundary Conditions > " + condition.name + " > Type", "'" + type + "': " + why);
+    return true;
+  });
+}
+
+void refuse_sections(List& deck, Problems& problems) {
+  for (const auto& [name, why] : missing_sections) {
+    if (!find_list(deck, name)) continue;
+    problems.add(name, "unknown section; " + why);
+    erase_list(deck, name);
+  }
+  List* mesh = find_list(deck, "Discretization");
+  if (!mesh) return;
+  for (const auto& [name, why] : missing_of_mesh) {
+    const Parameter* given = find_parameter(*mesh, name);
+    if (!given) continue;
+    if (tidied(given->value) != "false") problems.add("Discretization > " + name, "'" + given->value + "': " + why);
+    erase_parameter(*mesh, name);
+  }
+  std::erase_if(mesh->parameters,
+                [](const Parameter& one) { return one.name.starts_with("Element-Horizon Intersection"); });
+}
+
+}  // namespace
+
+void refuse_what_is_missing(List& deck, Problems& problems) {
+  refuse_sections(deck, problems);
+  refuse_laws(deck, problems);
+  refuse_damage(deck, problems);
+  refuse_conditions(deck, problems);
+}
+
+}  // namespace strut::deck

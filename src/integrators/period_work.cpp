@@ -1,0 +1,38 @@
+#include "integrators/period_work.hpp"
+
+namespace strut {
+
+namespace {
+
+// The changes of the periods from t over dt, m.
+Vector way_of(const Domain& domain, const Period& period, double t, double dt) {
+  const Vector more = stretch_at(domain.periods, t + dt) - stretch_at(domain.periods, t);
+  return period.length * more[period.axis] * Vector::Unit(period.axis);
+}
+
+}  // namespace
+
+void add_period_work(const Domain& domain, const std::vector<Vector>& forces, const TimeOfImpulse& at,
+                     ImpulseWork& work) {
+  for (std::size_t p = 0; p < domain.periods.size(); ++p) {
+    const Period& period = domain.periods[p];
+    if (period.stretch.is_constant()) continue;
+    const Vector half = 0.5 * at.impulse * forces[p];
+    const double after = half.dot(way_of(domain, period, at.t, at.after)) / at.after;
+    const double before =
+        at.before > 0 ? half.dot(way_of(domain, period, at.t - at.before, at.before)) / at.before : after;
+    work.before.external += before, work.after.external += after;
+  }
+}
+
+double period_work(const Domain& domain, const std::vector<Vector>& before, const std::vector<Vector>& after, double t,
+                   double dt) {
+  double work = 0;
+  for (std::size_t p = 0; p < domain.periods.size(); ++p) {
+    const Vector way = way_of(domain, domain.periods[p], t, dt);
+    work += 0.5 * (before[p] + after[p]).dot(way);
+  }
+  return work;
+}
+
+}  // namespace strut

@@ -1,0 +1,131 @@
+#include "setup/periods.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "conditions/periodic_sides.hpp"
+#include "setup/blocks.hpp"
+#include "topology/bounding_box.hpp"
+
+namespace strut {
+
+namespace {
+
+std::string path_of(const deck::Deck& deck, int number) {
+  return "Boundary Conditions > " + deck.conditions[number].name;
+}
+
+// Calls visit(sides, index in the deck).
+template <class Visit>
+void for_each(const deck::Deck& deck, const Visit& visit) {
+  for (int c = 0; c < static_cast<int>(deck.conditions.size()); ++c) {
+    if (const auto* sides = std::get_if<PeriodicSides>(&deck.conditions[c].kind)) visit(*sides, c);
+  }
+}
+
+// Why the points do not fit between the sides; empty if they do. `edge`: of the smallest cell, `horizon`: the largest,
+// m.
+std::string objection(const PeriodicSides& sides, const Eigen::AlignedBox3d& box, double edge, double horizon) {
+  constexpr double least = 0.01;      // of a cell between a point and the image of another one
+  constexpr double most_periods = 5;  // in a horizon
+  const double length = sides.upper - sides.lower, first = box.min()[sides.axis], last = box.max()[sides.axis];
+  std::ostringstream text;
+  if (first < sides.lower - least * edge || last > sides.upper + least * edge) {
+    text << "points lie from " << first << " to " << last << " m, not all between the sides at " << sides.lower
+         << " and " << sides.upper << " m; expected sides at the ends of the mesh";
+  } else if (length - (last - first) < least * edge) {
+    text << "points lie on both sides, where they coincide with images of each other; expected points on one";
+  } else if (horizon > most_periods * length) {
+    text << "the horizon of " << horizon << " m holds more than 5 periods of " << length << " m";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+std::vector<Mirror> sides_of_periods(const deck::Deck& deck) {
+  std::vector<Mirror> planes;
+  for_each(deck, [&](const PeriodicSides& sides, int number) {
+    const Vector along = Vector::Unit(sides.axis);
+    const double period = sides.upper - sides.lower;
+    planes.push_back(
+        {.on = sides.lower * along, .normal = along, .number = number, .bit = sides.axis, .period = period});
+    planes.push_back(
+        {.on = sides.upper * along, .normal = -along, .number = number, .bit = sides.axis, .period = period});
+  });
+  return planes;
+}
+
+std::vector<Period> periods(const deck::Deck& deck, const PointCloud& cloud, const std::vector<Mirror>& mirrors,
+                            const Communicator& communicator) {
+  std::vector<Period> all;
+  deck::Problems problems;
+  double most[] = {-HUGE_VAL, 0};  // the smallest spacing, negative; the largest horizon
+  const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    most[0] = std::max(most[0], -cloud.spacings[i]);
+    most[1] = std::max(most[1], bonds[cloud.blocks[i]].horizon_at(cloud.spacings[i]));
+  }
+  communicator.max(most);
+  const Eigen::AlignedBox3d box = common_box(box_around(cloud.positions), communicator);
+  for_each(deck, [&](const PeriodicSides& sides, int number) {
+    const std::string path = path_of(deck, number);
+    const double t = deck.solver.initial_time, first = sides.stretch.evaluate(0, 0, 0, t);
+    if (cloud.at == PointsAt::nodes) {
+      problems.add(path +
+                   ": nodes on a side would coincide with images of those on the other; expected Discretization > "
+                   "Points \"Elements\"");
+    }
+    if (!mirrors.empty()) problems.add(path + ": bodies that go on behind symmetry planes have no periodic sides, too");
+    if (std::abs(first - 1) > 1e-12) {
+      problems.add(path + " > Stretch: '" + sides.stretch.text() +
+                   "' is not 1 at the initial time; bodies start as the mesh "
+                   "has them");
+    }
+    for (const Period& other : all) {
+      if (other.axis == sides.axis) problems.add(path + ": " + path_of(deck, other.number) + " has the same axis");
+    }
+    if (!deck.interactions.empty() && !sides.stretch.is_constant()) {
+      problems.add(path + " > Stretch: contact does not know sides that move; expected 1, or no Contact");
+    }
+    if (!deck.interactions.empty() && sides.upper - sides.lower < 3 * most[1]) {
+      problems.add(path + ": contact needs a period of 3 horizons or more; expected " + std::to_string(3 * most[1]) +
+                   " m");
+    }
+    const std::string text = objection(sides, box, -most[0], most[1]);
+    if (!text.empty()) problems.add(path + ": " + text);
+    all.push_back({sides.axis, sides.upper - sides.lower, number, sides.stretch});
+  });
+  raise_together(communicator, problems.text(deck.file.string()));
+  return all;
+}
+
+std::string open_sides(const deck::Deck& deck, const Domain& domain) {
+  std::string warnings;
+  if (domain.periods.empty()) return warnings;
+  std::vector<Vector> shifts(domain.sites.size(), Vector::Zero());
+  for (const ImagePoint& image : domain.halo.images()) shifts[image.ghost] = image.by.period;
+  for (const Period& period : domain.periods) {
+    double counts[] = {0, 0};  // elements with a node on the upper side, and those of them without a neighbor above
+    for (int i = 0; i < domain.owned && !domain.cloud.shared_nodes.empty(); ++i) {
+      const auto is_on_side = [&](std::int64_t node) { return (node >> (first_plane_bit + period.axis) & 1) != 0; };
+      if (std::ranges::none_of(domain.cloud.shared_nodes[i], is_on_side)) continue;
+      bool meets = false;
+      domain.families.for_each(i, [&](int j) { meets = meets || shifts[j][period.axis] > 0; });
+      ++counts[0], counts[1] += meets ? 0 : 1;
+    }
+    domain.communicator.sum(counts);
+    if (counts[1] == 0) continue;
+    std::ostringstream text;
+    text
+        << "WARNING: " << path_of(deck, period.number) << ": " << counts[1] << " of " << counts[0]
+        << " elements at the upper side have no neighbor behind it, and end there; expected a mesh whose faces at both "
+           "sides are alike\n";
+    warnings += text.str();
+  }
+  return warnings;
+}
+
+}  // namespace strut

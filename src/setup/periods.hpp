@@ -1,0 +1,24 @@
+// Periodic sides of the deck.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/parallel/communicator.hpp"
+#include "deck/deck.hpp"
+#include "topology/domain.hpp"
+
+namespace strut {
+
+// Both sides of each period, on which elements end and meet their images; for reading a mesh.
+std::vector<Mirror> sides_of_periods(const deck::Deck& deck);
+
+// Collective. The periods of the deck; throws Error on all ranks where they do not fit to the points or other
+// conditions. `mirrors`: of the bodies.
+std::vector<Period> periods(const deck::Deck& deck, const PointCloud& cloud, const std::vector<Mirror>& mirrors,
+                            const Communicator& communicator);
+
+// Collective. A warning for each period whose upper side has elements that meet none of those at the lower side.
+std::string open_sides(const deck::Deck& deck, const Domain& domain);
+
+}  // namespace strut

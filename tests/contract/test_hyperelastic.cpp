@@ -1,0 +1,141 @@
+// Elastomers against closed forms: incompressible ones, which a bulk modulus of 10⁵ shear moduli is to 1e-5, and
+// relaxation at a held stretch.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "materials/hyperelastic.hpp"
+#include "materials/tangent.hpp"
+#include "point_driver.hpp"
+
+namespace strut::testing {
+namespace {
+
+using namespace materials;
+
+constexpr double shear = 1e6, bulk = 1e5 * shear;  // Pa
+
+Hyperelastic neo_hookean() { return {.bulk = bulk, .terms = {{{shear, 2}}}}; }
+// C₁₀ = 0.35 MPa, C₀₁ = 0.15 MPa: W = C₁₀ (I₁ − 3) + C₀₁ (I₂ − 3).
+Hyperelastic mooney_rivlin() { return {.bulk = bulk, .terms = {{{0.7e6, 2}, {-0.3e6, -2}}}}; }
+// Ogden (1972) for Treloar's rubber: μ 0.63, 0.0012, −0.01 MPa, α 1.3, 5, −2.
+Hyperelastic ogden() { return {.bulk = bulk, .terms = {{{0.63e6, 1.3}, {0.0012e6, 5}, {-0.01e6, -2}}}}; }
+
+// σ₁ − σ₃ of an incompressible material: Σ μ_p (λ₁^α_p − λ₃^α_p).
+double difference(const Hyperelastic& law, double first, double third) {
+  double sum = 0;
+  for (const auto& [modulus, exponent] : law.terms) {
+    sum += modulus * (std::pow(first, exponent) - std::pow(third, exponent));
+  }
+  return sum;
+}
+
+// The stress at a stretch that keeps the volume, but for the pressure.
+Symmetric stress_at(const Hyperelastic& law, const Symmetric& stretch, double dt = 1) {
+  Hyperelastic::State state;
+  const PointStress found =
+      law.step(PointStep{Symmetric::Zero(), dt, to_tensor(stretch).determinant(), stretch}, Symmetric::Zero(), state);
+  EXPECT_TRUE(found.converged);
+  return found.stress;
+}
+
+constexpr double tolerance = 1e-3;  // of the issue of elastomers: a tenth of a percent
+
+TEST(Hyperelastic, IsClosedFormInUniaxialTension) {
+  for (const Hyperelastic& law : {neo_hookean(), mooney_rivlin(), ogden()}) {
+    for (const double s : {0.4, 2.5, 5.0}) {
+      double low = 0.9 / std::sqrt(s), high = 1.1 / std::sqrt(s);  // the lateral stretch without lateral stress
+      for (int n = 0; n < 60; ++n) {
+        const double middle = 0.5 * (low + high);
+        (stress_at(law, Symmetric{s, middle, middle, 0, 0, 0})[1] < 0 ? low : high) = middle;
+      }
+      const double expected = difference(law, s, 1 / std::sqrt(s));
+      EXPECT_NEAR(stress_at(law, Symmetric{s, low, low, 0, 0, 0})[0], expected, tolerance * std::abs(expected)) << s;
+    }
+  }
+}
+
+TEST(Hyperelastic, IsClosedFormInEquibiaxialTensionAndPureShear) {
+  for (const Hyperelastic& law : {neo_hookean(), mooney_rivlin(), ogden()}) {
+    for (const double s : {0.7, 1.5, 3.0}) {
+      const Symmetric both = stress_at(law, Symmetric{s, s, 1 / (s * s), 0, 0, 0});
+      EXPECT_NEAR(both[0] - both[2], difference(law, s, 1 / (s * s)), 1e-9 * std::abs(both[0] - both[2]));
+      const Symmetric pure = stress_at(law, Symmetric{s, 1, 1 / s, 0, 0, 0});
+      EXPECT_NEAR(pure[0] - pure[2], difference(law, s, 1 / s), 1e-9 * std::abs(pure[0] - pure[2]));
+    }
+  }
+}
+
+// Simple shear F = 1 + γ e₁ ⊗ e₂ of Mooney & Rivlin: σ₁₂ = 2 (C₁₀ + C₀₁) γ in the frame at rest, to which R turns the
+// stress of U.
+TEST(Hyperelastic, IsClosedFormInSimpleShear) {
+  for (const double amount : {0.1, 1.0, 3.0}) {
+    Tensor F = Tensor::Identity();
+    F(0, 1) = amount;
+    const Eigen::SelfAdjointEigenSolver<Tensor> right(F.transpose() * F);
+    const Tensor U = right.operatorSqrt(), R = F * U.inverse();
+    const Tensor stress = R * to_tensor(stress_at(mooney_rivlin(), symmetric_part(U))) * R.transpose();
+    EXPECT_NEAR(stress(0, 1), 1e6 * amount, 1e-8 * bulk * 1e-5) << amount;
+    EXPECT_NEAR(stress(0, 0) - stress(1, 1), 1e6 * amount * amount, 1e-3 * 1e6 * amount) << amount;
+  }
+}
+
+// Stretched within a step and held: the deviator falls as γ_∞ + Σ γ_k e^(−t/t_k), exactly, as nothing changes the
+// branches but their decay.
+TEST(Hyperelastic, RelaxesByItsSeries) {
+  Hyperelastic law = ogden();
+  law.times = {{{0.3, 0.1}, {0.2, 1.0}}};
+  const Symmetric stretch{2, 1 / std::sqrt(2.0), 1 / std::sqrt(2.0), 0, 0, 0};
+  const double fast = difference(law, 2, 1 / std::sqrt(2.0));
+  Hyperelastic::State state;
+  const auto step = [&](double dt, const Symmetric& stress) {
+    return law.step(PointStep{Symmetric::Zero(), dt, 1, stretch}, stress, state).stress;
+  };
+  Symmetric stress = step(1e-9, Symmetric::Zero());
+  EXPECT_NEAR(stress[0] - stress[2], fast, 1e-7 * fast);
+  double time = 0;
+  for (int n = 0; n < 300; ++n) {
+    stress = step(0.01, stress);
+    time += 0.01;
+    const double left = 0.5 + 0.3 * std::exp(-time / 0.1) + 0.2 * std::exp(-time / 1.0);
+    ASSERT_NEAR(stress[0] - stress[2], left * fast, 1e-6 * fast) << time;
+  }
+}
+
+// A closed cycle takes what it dissipates and what its branches still hold, and nothing without relaxation.
+TEST(Hyperelastic, ClosedPathsTakeWhatTheyDissipate) {
+  for (const bool relaxes : {false, true}) {
+    Hyperelastic law{.bulk = 10e6, .terms = {{{shear, 2}}}};
+    if (relaxes) law.times = {{{0.5, 0.05}}};
+    point::Driver<Hyperelastic> point(law);
+    double work = 0, most = 0;
+    const int steps = 2000;
+    for (int n = 0; n < steps; ++n) {
+      const double rate = 0.5 * (n < steps / 2 ? 1 : -1) / steps;
+      const Symmetric increment{rate, -0.3 * rate, -0.3 * rate, 0.4 * rate, 0, 0}, before = point.stress;
+      const double J = std::exp(trace(point.strain));
+      ASSERT_TRUE(point.advance_strain(increment, 1e-3));
+      work += 0.5 *
+              (J * double_dot(before, increment) + std::exp(trace(point.strain)) * double_dot(point.stress, increment));
+      most = std::max(most, work);
+    }
+    EXPECT_NEAR(work, point.state.stored + point.state.dissipated, 1e-4 * most) << relaxes;
+    EXPECT_EQ(point.state.dissipated > 0.05 * most, relaxes);
+    EXPECT_LT(point.state.stored, relaxes ? 0.01 * most : 1e-6 * most);
+  }
+}
+
+// ∂σ/∂U by central differences of the law against that of the closed form along the axes, 4/3 G + K at rest.
+TEST(Hyperelastic, TangentAtRestIsThatOfItsModuli) {
+  const Hyperelastic law{.bulk = 5e6, .terms = {{{0.7e6, 2}, {-0.3e6, -2}}}};
+  Symmetric unit = Symmetric::Zero();
+  unit.head<3>().setOnes();
+  const StretchTangent tangent =
+      tangent_of(law, PointStep{Symmetric::Zero(), 1, 1, unit}, Symmetric::Zero(), Hyperelastic::State(), unit);
+  EXPECT_NEAR(tangent(0, 0), law.moduli().longitudinal(), 1e-6 * law.bulk);
+  EXPECT_NEAR(tangent(0, 1), law.bulk - 2 * law.shear() / 3, 1e-6 * law.bulk);
+  EXPECT_NEAR(tangent(3, 3), 2 * law.shear(), 1e-6 * law.bulk);
+}
+
+}  // namespace
+}  // namespace strut::testing

@@ -1,0 +1,242 @@
+// Periodic sides in whole runs: one period is a long body; contact across the sides; elastic constants; what is
+// refused.
+#include <gtest/gtest.h>
+
+#include "regression/bodies.hpp"
+#include "run/simulation.hpp"
+
+namespace strut::regression {
+namespace {
+
+std::string sides(const std::string& axis, const std::string& lower, const std::string& upper,
+                  const std::string& stretch = "1") {
+  return section("sides " + axis, key("Type", "Periodic Sides") + key("Coordinate", axis) + key("Lower", lower) +
+                                      key("Upper", upper) + key("Stretch", stretch));
+}
+
+// Displacements of the last frame, in the order of the file; on rank 0.
+std::vector<Vector> run_of(const RunFolder& folder, Parts parts) {
+  parts.output = key("Output Filename", (folder / "result.e").string()) + key("Output Frequency", "100000") +
+                 section("Output Variables", key("Displacement", "true"));
+  testing::internal::CaptureStdout();
+  run(folder.write("deck.xml", parts.text()), folder.world);
+  testing::internal::GetCapturedStdout();
+  std::vector<Vector> all;
+  if (folder.world.rank() > 0) return all;
+  const io::ExodusResult result = io::read_result(folder / "result.e");
+  for (std::size_t v = 0; v < result.nodal_names.size(); ++v) {
+    const std::string& name = result.nodal_names[v];
+    if (!name.starts_with("Displacement")) continue;
+    const auto& values = result.nodal[v].back();
+    all.resize(values.size(), Vector::Zero());
+    for (std::size_t i = 0; i < values.size(); ++i) all[i][name.back() - 'X'] = values[i];
+  }
+  return all;
+}
+
+Table history_of(const RunFolder& folder, Parts parts, const std::vector<std::string>& variables) {
+  std::string names;
+  for (const std::string& name : variables) names += key(name, "true");
+  parts.history =
+      key("Filename", (folder / "history.csv").string()) + key("Frequency", "1") + section("Variables", names);
+  testing::internal::CaptureStdout();
+  run(folder.write("deck.xml", parts.text()), folder.world);
+  testing::internal::GetCapturedStdout();
+  return read_history(folder / "history.csv");
+}
+
+double difference(const std::vector<Vector>& some, const std::vector<Vector>& all,
+                  const Vector& shift = Vector::Zero()) {
+  double most = 0, largest = 0;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    most = std::max(most, (some[i] - all[i] - shift).norm());
+    largest = std::max(largest, all[i].norm());
+  }
+  return most / largest;
+}
+
+// ---- A long bar ----------------------------------------------------------------------------------------------------
+
+struct Kind {
+  std::string name, materials, blocks;
+  bool stiff_end = false;
+};
+
+class LongBar : public testing::TestWithParam<Kind> {};
+
+// A bar of 6 cells a period, thrown at a wall with a speed that repeats along the bar; three periods of it beside one.
+// Elements of a bar are numbered along x first, so that those of one period are places in the file of the other.
+TEST_P(LongBar, IsOnePeriod) {
+  constexpr int cells = 6;
+  Parts parts;
+  if (!GetParam().materials.empty()) parts.materials = GetParam().materials;
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + GetParam().blocks);
+  parts.verlet = key("Fixed dt", "2e-8");  // an estimated one depends on the whole body
+  parts.times = key("Final Time", "1.6e-6");
+  const std::string start = along("flight", "Initial Velocity", "all", "z", "-80*(1 + 0.5*sin(1047.1975511966*x))") +
+                            along("aside", "Initial Velocity", "all", "x", "20*cos(1047.1975511966*x)") +
+                            plane("wall", "Rigid Plane", "all", "0 0 0", "0 0 1");
+  const RunFolder one(Lattice{.nx = cells, .ny = 3, .nz = 5}), three(Lattice{.nx = 3 * cells, .ny = 3, .nz = 5});
+  parts.conditions = start + sides("x", "0", "6e-3");
+  const std::vector<Vector> some = run_of(one, parts);
+  parts.conditions = start + sides("x", "0", "18e-3");
+  const std::vector<Vector> all = run_of(three, parts);
+  if (one.world.rank() > 0) return;
+  ASSERT_EQ(all.size(), 3 * some.size());
+  double most = 0, largest = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t line = i / (3 * cells), place = i % cells;
+    most = std::max(most, (some[line * cells + place] - all[i]).norm());
+    largest = std::max(largest, all[i].norm());
+  }
+  // The sine of x + 2π differs by round-off, which flow lets grow some hundredfold.
+  EXPECT_GT(largest, 1e-5);
+  EXPECT_LT(most, 1e-9 * largest);
+}
+
+const std::string yields = key("Yield Stress", "200e6");
+std::string metal(const std::string& model, const std::string& more) {
+  return section("copper", key("Material Model", model) + key("Density", "8930") + key("Young's Modulus", "117e9") +
+                               key("Poisson's Ratio", "0.35") + more);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    By, LongBar,
+    testing::Values(
+        Kind{"MeanGradient", metal("Elastic Plastic Correspondence", yields), key("Horizon Factor", "1.75")},
+        Kind{"Silling", metal("Elastic Plastic Correspondence", yields + key("Stabilization", "Silling")),
+             key("Horizon", "2.01e-3")},
+        Kind{"LargeFamilies", metal("Elastic Plastic Correspondence", yields), key("Horizon", "3.015e-3")},
+        Kind{"Ordinary", metal("Elastic", ""), key("Horizon", "3.015e-3")},
+        Kind{"Quadratic",
+             metal("Elastic Plastic Correspondence", yields + key("Formulation", "Quadratic Correspondence")),
+             key("Horizon Factor", "1.75")}),
+    [](const auto& info) { return info.param.name; });
+
+// ---- Elastic constants ---------------------------------------------------------------------------------------------
+
+// A block that repeats in all directions is without surfaces: stretched along x it has the stresses of Hooke's law with
+// (λ + 2 μ) and λ, to the second order of a strain of 1e-4. The work is ½ N ΔL.
+TEST(PeriodicBlock, HasTheElasticConstantsOfItsMaterial) {
+  for (const bool is_quadratic : {false, true}) {
+    Parts parts;
+    parts.materials =
+        metal("Elastic Correspondence", is_quadratic ? key("Formulation", "Quadratic Correspondence") : "");
+    parts.blocks =
+        section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+    parts.node_sets = key("one", "1");
+    parts.conditions = sides("x", "0", "4e-3", "1 + 1e-4*t") + sides("y", "0", "4e-3") + sides("z", "0", "6e-3");
+    for (const std::string axis : {"x", "y", "z"}) {
+      parts.conditions += along("hold " + axis, "Prescribed Displacement", "one", axis, "0");
+    }
+    parts.times = key("Final Time", "1");
+    const RunFolder folder;
+    std::string deck = parts.text();
+    const std::vector<std::string> names = {"Reaction_X(sides x)", "Reaction_Y(sides y)", "Reaction_Z(sides z)"};
+    std::string variables;
+    for (const std::string& name : names) variables += key(name, "true");
+    deck = changed(deck, section("Verlet", parts.verlet), section("QuasiStatic", key("Number of Load Steps", "2")));
+    deck = changed(
+        deck, "</ParameterList>\n</ParameterList>\n",
+        "</ParameterList>\n" +
+            section("History", key("Filename", (folder / "history.csv").string()) + section("Variables", variables)) +
+            "</ParameterList>\n");
+    testing::internal::CaptureStdout();
+    run(folder.write("deck.xml", deck), folder.world);
+    testing::internal::GetCapturedStdout();
+    const Table table = read_history(folder / "history.csv");
+    const double E = 117e9, nu = 0.35, lambda = E * nu / (1 + nu) / (1 - 2 * nu), mu = E / 2 / (1 + nu);
+    const double strain = 1e-4;
+    const auto last = [&](const std::string& name) { return table.at(name).back(); };
+    EXPECT_NEAR(last(names[0]) / ((lambda + 2 * mu) * strain * 24e-6), 1, 3e-4);
+    EXPECT_NEAR(last(names[1]) / (lambda * strain * 24e-6), 1, 3e-4);
+    EXPECT_NEAR(last(names[2]) / (lambda * strain * 16e-6), 1, 3e-4);
+    const double energy = 0.5 * (lambda + 2 * mu) * strain * strain * 96e-9;
+    EXPECT_NEAR(last("Elastic_Energy"), energy, 1e-3 * energy);
+    EXPECT_NEAR(last("External_Work"), energy, 1e-3 * energy);
+  }
+}
+
+// Explicitly, with the sides moving: waves run from them, and the work of the sides is what the body holds.
+TEST(PeriodicBlock, KeepsTheBalanceWhileItsSidesMove) {
+  for (const std::string more : {"", "Subcycling"}) {
+    Parts parts;
+    parts.blocks =
+        section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+    parts.conditions = sides("x", "0", "4e-3", "1 - 3e3*t") + sides("y", "0", "4e-3");
+    parts.times = key("Final Time", "2e-6");
+    parts.verlet = key("Safety Factor", "0.7") + (more.empty() ? "" : key(more, "true"));
+    const RunFolder folder;
+    const Table table = history_of(folder, parts, {"Reaction_X(sides x)"});
+    EXPECT_LT(table.at("Reaction_X(sides x)").back(), -1e3);
+    EXPECT_GT(table.at("External_Work").back(), 1e-3);
+    for (const double error : table.at("Balance_Error")) EXPECT_LT(std::abs(error), 2e-3);  // central differences
+  }
+}
+
+// ---- Contact across the sides --------------------------------------------------------------------------------------
+
+// Two blocks in a period of 10.5 mm. The second flies through the upper side, behind which the first one's image is:
+// the same as if the first stood there, without sides.
+std::vector<Vector> meeting(bool across, const std::string& contact) {
+  Parts parts = thrown_block(contact);
+  parts.times = key("Final Time", "1.4e-5");
+  parts.verlet = key("Fixed dt", "5e-8");
+  parts.conditions = along("flight", "Initial Velocity", "block_2", "x", "100") +
+                     along("rub", "Initial Velocity", "block_2", "y", "30");
+  if (across) parts.conditions += sides("x", "0", "10.5e-3");
+  const RunFolder folder;
+  const double first = across ? 0.2e-3 : 10.7e-3;
+  folder.write("points.txt", cubes(1, {first, 0, 0}, 4, 4, 4, 1e-3) + cubes(2, {6e-3, 0.3e-3, 0.2e-3}, 4, 4, 4, 1e-3));
+  return run_of(folder, parts);
+}
+
+TEST(PeriodicContact, MeetsTheImageBehindTheSide) {
+  const std::vector<std::pair<std::string, std::string>> pair = {{"block_1", "block_2"}};
+  const std::string penalty = key("Contact Model", "Short Range Force") + key("Spring Constant", "1e12");
+  for (const std::string& contact : {contact_by(penalty, pair, "1.1e-3", "0.3"), contact_by(penalty, pair, "1.1e-3")}) {
+    const std::vector<Vector> across = meeting(true, contact), there = meeting(false, contact);
+    if (across.empty()) return;
+    double moved = 0;  // of the struck block
+    for (std::size_t i = 0; i < there.size() / 2; ++i) moved = std::max(moved, there[i].norm());
+    EXPECT_GT(moved, 1e-4);
+    EXPECT_LT(difference(across, there), 1e-9);  // places are rounded otherwise by the period
+  }
+}
+
+// ---- What is refused -----------------------------------------------------------------------------------------------
+
+std::string error_of(Parts parts) {
+  const RunFolder folder;
+  testing::internal::CaptureStdout();
+  std::string text;
+  try {
+    run(folder.write("deck.xml", parts.text()), folder.world);
+  } catch (const Error& error) {
+    text = error.what();
+  }
+  testing::internal::GetCapturedStdout();
+  return text;
+}
+
+TEST(PeriodicSides, ThatDoNotFitAreRefused) {
+  Parts parts;
+  const auto with = [&](const std::string& conditions) {
+    parts.conditions = conditions;
+    return error_of(parts);
+  };
+  EXPECT_NE(with(sides("x", "0", "3.5e-3")).find("not all between the sides"), std::string::npos);
+  EXPECT_NE(with(sides("x", "0", "0")).find("expected > Lower"), std::string::npos);
+  EXPECT_NE(with(sides("x y", "0", "4e-3")).find("expected one: x, y or z"), std::string::npos);
+  EXPECT_NE(with(sides("x", "0", "4e-3", "1 + x")).find("depends on x, y or z"), std::string::npos);
+  EXPECT_NE(with(sides("x", "0", "4e-3", "1.1")).find("is not 1 at the initial time"), std::string::npos);
+  EXPECT_NE(with(sides("x", "0", "4e-3", "1 - 1e6*t")).find("expected a stretch > 0"), std::string::npos);
+  EXPECT_NE(with(sides("z", "0", "6e-3") + plane("mid", "Symmetry Plane", "foot", "0 0 0", "0 0 1"))
+                .find("have no periodic sides, too"),
+            std::string::npos);
+  parts.points = "Nodes";
+  EXPECT_NE(with(sides("x", "0", "4e-3")).find("expected Discretization > Points \"Elements\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace strut::regression

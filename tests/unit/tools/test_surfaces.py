@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+"""tools/voxels of closed surfaces (STL) and of NumPy's arrays: known volumes, the wanted density, and what is refused."""
+import importlib.util
+import math
+import re
+import sys
+
+from tool_test import InFolder
+
+if importlib.util.find_spec("vtkmodules") is None or importlib.util.find_spec("scipy") is None:
+    print("skipped: VTK or SciPy is not installed")
+    sys.exit(77)
+
+import unittest  # noqa: E402
+
+import numpy as np  # noqa: E402
+
+
+def sphere(path, radius, open_cap=False):
+    from vtkmodules.vtkFiltersSources import vtkSphereSource
+    from vtkmodules.vtkIOGeometry import vtkSTLWriter
+
+    source, writer = vtkSphereSource(), vtkSTLWriter()
+    source.SetRadius(radius), source.SetCenter(3e-3, -1e-3, 7e-3)
+    source.SetThetaResolution(120), source.SetPhiResolution(120)
+    if open_cap:
+        source.SetEndPhi(160)
+    writer.SetInputConnection(source.GetOutputPort())
+    writer.SetFileName(str(path)), writer.Write()
+
+
+class Surfaces(InFolder):
+    def works(self, *words):
+        done = self.run_tool("voxels", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def volume_of(self, printed):
+        return float(re.search(r"volume ([0-9.e+-]+) m\^3", printed)[1])
+
+    def test_a_sphere_has_its_volume(self):
+        sphere(self.folder / "sphere.stl", 1e-3)
+        printed = self.works("sphere.stl", "out.g", "--voxel-size", 1e-4, "--cells", 2, "--grey")
+        # The polyhedron of 120 x 120 lacks 0.12 %; planes across voxels of a tenth of the radius are off by the square of half a
+        # voxel over the radius, 0.25 %.
+        self.assertAlmostEqual(self.volume_of(printed) / (4 / 3 * math.pi * 1e-9), 1, delta=4e-3)
+        self.assertIn("closed surface of", printed)
+
+    def test_the_surface_moves_for_the_wanted_density(self):
+        sphere(self.folder / "sphere.stl", 1e-3)
+        printed = self.works("sphere.stl", "out.g", "--voxel-size", 1e-4, "--cells", 2, "--grey", "--density", 0.3)
+        self.assertAlmostEqual(self.volume_of(printed) / (0.3 * 8e-9), 1, delta=1e-3)
+        moved = float(re.search(r"moved outward by ([0-9.e+-]+) m", printed)[1])
+        self.assertAlmostEqual(1e-3 + moved, (0.3 * 8e-9 * 3 / 4 / math.pi) ** (1 / 3), delta=5e-6)  # a 20th of a voxel
+        printed = self.works("sphere.stl", "whole.g", "--voxel-size", 1e-4, "--density", 0.3)
+        self.assertAlmostEqual(float(re.search(r"density +([0-9.]+) %", printed)[1]), 30, delta=0.03)
+
+    def test_lengths_of_the_file_have_a_unit(self):
+        sphere(self.folder / "sphere.stl", 1.0)
+        printed = self.works("sphere.stl", "out.g", "--voxel-size", 1e-4, "--units", "mm")
+        self.assertIn("20 x 20 x 20 voxels of 0.0001 x 0.0001 x 0.0001 m", printed)
+
+    def test_open_surfaces_and_missing_sizes_are_refused(self):
+        sphere(self.folder / "open.stl", 1e-3, open_cap=True)
+        done = self.run_tool("voxels", "open.stl", "out.g", "--voxel-size", 1e-4)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("not closed: 120 edges", done.stderr)
+        sphere(self.folder / "sphere.stl", 1e-3)
+        self.assertIn("needs --voxel-size", self.run_tool("voxels", "sphere.stl", "out.g").stderr)
+        (self.folder / "text.stl").write_text("nothing of the kind\n")
+        self.assertNotEqual(self.run_tool("voxels", "text.stl", "out.g", "--voxel-size", 1).returncode, 0)
+
+
+class Arrays(InFolder):
+    def test_an_array_is_the_image_that_its_numbers_are(self):
+        values = np.random.default_rng(1).integers(0, 255, (6, 5, 4)).astype(np.uint8)
+        np.save(self.folder / "a.npy", values)
+        values.tofile(self.folder / "a.raw")
+        words = ["--voxel-size", 1e-3, "--threshold", 50]
+        by_numpy = self.run_tool("voxels", "a.npy", "a.g", *words)
+        self.assertEqual(by_numpy.returncode, 0, by_numpy.stderr)
+        raw = self.run_tool("voxels", "a.raw", "b.g", *words, "--shape", 4, 5, 6, "--type", "uint8")
+        self.assertEqual(by_numpy.stdout.splitlines()[1:-1], raw.stdout.splitlines()[1:-1])
+        np.save(self.folder / "bool.npy", values > 50)
+        done = self.run_tool("voxels", "bool.npy", "c.g", "--voxel-size", 1e-3)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_other_arrays_are_refused(self):
+        np.save(self.folder / "flat.npy", np.ones((3, 4)))
+        done = self.run_tool("voxels", "flat.npy", "out.g", "--voxel-size", 1)
+        self.assertIn("expected three axes: z, y, x", done.stderr)
+        (self.folder / "broken.npy").write_bytes(b"\x93NUMPY\x01\x00")
+        self.assertIn("cannot be read as NumPy's", self.run_tool("voxels", "broken.npy", "out.g", "--voxel-size", 1).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
