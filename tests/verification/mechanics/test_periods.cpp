@@ -148,22 +148,5 @@ INSTANTIATE_TEST_SUITE_P(By, Periodic,
                                          Case{"Quadratic", quadratic, FamilyKind::lists, 1.75, Influence::one}),
                          [](const auto& info) { return info.param.name; });
 
-// Nine periods around one point: it is its own neighbor, 8 times along two axes.
-TEST(Periods, APointMayBeItsOwnNeighbor) {
-  const Communicator world;
-  PointCloud cloud;
-  cloud.block_names = {"block"};
-  for (int z = 0; world.rank() == 0 && z < 3; ++z) {
-    cloud.ids.push_back(z), cloud.element_ids.push_back(z + 1);
-    cloud.positions.emplace_back(0.5, 0.5, z + 0.5);
-    cloud.volumes.push_back(1), cloud.spacings.push_back(1), cloud.blocks.push_back(0), cloud.sets.push_back(0);
-  }
-  const std::vector<Period> periods{{0, 1, 0, Function(1)}, {1, 1, 1, Function(1)}};
-  const Domain domain = make_domain(partitioned(std::move(cloud), world), {BlockBonds(1.5)}, world, {}, {}, periods);
-  for (int i = 0; i < domain.owned; ++i) {
-    EXPECT_EQ(domain.families.size(i), domain.id(i) == 1 ? 8u + 2 * 5 : 8u + 5);  // |ξ| ≤ 1.5: 4 corners are at 1.73
-  }
-}
-
 }  // namespace
 }  // namespace strut
