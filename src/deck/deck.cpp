@@ -44,7 +44,8 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   deck.history = read_history(values, whole, problems);
   add_probes(values, deck.node_sets);
   deck.restart = read_restart(values, file, problems);
-  if (steps_follow && deck.restart.enabled) {
+  if (steps_follow) deck.restart.enabled = false;
+  if (steps_follow && values.has_section("Restart")) {
     problems.add("Restart", "beside 'Solver 2'; expected none: a run of two solvers writes no checkpoints");
   }
   deck.watch = read_watch(values);
@@ -88,16 +89,10 @@ void look_at_files(Deck& deck, Problems& problems) {
 // Decks of other programs would give an error a line; one tells where to look.
 void refuse_other_programs(List& deck, const fs::path& file, Problems& problems) {
   const bool is_perilabs = find_list(deck, "Outputs") && (find_list(deck, "Models") || find_list(deck, "Physics"));
-  const bool is_cabanapds = find_list(deck, "num_cells") || find_list(deck, "timestep_safety_factor");
-  if (is_perilabs) {
-    problems.add("Models, Outputs",
-                 "this is a deck of PeriLab, whose words inputs/from-perilab.md translates; its lists "
-                 "of points and sets can be read as they are");
-  } else if (is_cabanapds) {
-    problems.add("num_cells", "this is an input of CabanaPD, whose words inputs/from-cabanapd.md translates");
-  } else {
-    return;
-  }
+  if (!is_perilabs) return;
+  problems.add("Models, Outputs",
+               "this is a deck of PeriLab, whose words inputs/from-perilab.md translates; its lists of points and sets "
+               "can be read as they are");
   problems.raise(file.string());
 }
 
@@ -115,6 +110,10 @@ void check_runs_alone(const Deck& deck, Problems& problems) {
 enum class FileCheck { no, yes };
 
 Deck parse(const std::string& text, const fs::path& file, FileCheck file_check, Problems& problems) {
+  if (text.find("\"num_cells\"") != std::string::npos) {
+    problems.add("num_cells", "this is an input of CabanaPD, whose words inputs/from-cabanapd.md translates");
+    problems.raise(file.string());
+  }
   auto list = parse_xml_or_yaml(text, problems);
   if (!list) problems.raise(file.string());
   refuse_other_programs(*list, file, problems);

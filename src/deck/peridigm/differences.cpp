@@ -183,19 +183,18 @@ bool has_peridigms_output(List& deck) {
 
 bool is_peridigms(List& deck) {
   const auto section = [&](const char* name) { return find_list(deck, name); };
-  List *mesh = section("Discretization"), *contact = section("Contact");
+  List* mesh = section("Discretization");
   return section("Compute Class Parameters") || has_peridigms_output(deck) || has_peridigms_solver(deck) ||
          (mesh && has_any(*mesh, {"Omit Bonds Between Blocks", "Store Exodus Mesh"})) ||
-         (contact && has_any(*contact, {"Search Radius", "Search Frequency"})) ||
          any_section_has(section("Materials"),
                          {"Hourglass Coefficient", "Apply Shear Correction Factor", "Enable Flaw", "Disable Plasticity",
                           "Thermal Expansion Coefficient", "Apply Automatic Differentiation Jacobian"});
 }
 
 bool may_be_peridigms(List& deck) {
-  List* mesh = find_list(deck, "Discretization");
-  return is_peridigms(deck) || sets_are_parameters(find_list(deck, "Boundary Conditions")) ||
-         (mesh && has_any(*mesh, {"NeighborhoodType"}));
+  List *mesh = find_list(deck, "Discretization"), *contact = find_list(deck, "Contact");
+  return is_peridigms(deck) || (contact && has_any(*contact, {"Search Radius", "Search Frequency"})) ||
+         sets_are_parameters(find_list(deck, "Boundary Conditions")) || (mesh && has_any(*mesh, {"NeighborhoodType"}));
 }
 
 void tell_differences(List& deck, Problems& problems) { Differences(deck, problems).tell(); }

@@ -100,12 +100,13 @@ std::optional<int> load_steps(List& solver) {
 
 // Makes one of two series of equilibria that follow each other, if their steps fit together.
 bool join(List& first, List& second, Problems& problems) {
-  const auto begin = real_of(first, "Initial Time"), middle = real_of(first, "Final Time");
+  const double begin = real_of(first, "Initial Time").value_or(0);
+  const auto middle = real_of(first, "Final Time");
   const auto next = real_of(second, "Initial Time"), end = real_of(second, "Final Time");
   const auto one = load_steps(first), other = load_steps(second);
-  if (!one || !other || !begin || !middle || !next || !end || *middle != *next) return false;
+  if (!one || !other || !middle || !next || !end || *middle != *next) return false;
   std::vector<double> times;
-  for (int n = 0; n <= *one; ++n) times.push_back(*begin + (*middle - *begin) * n / *one);
+  for (int n = 0; n <= *one; ++n) times.push_back(begin + (*middle - begin) * n / *one);
   for (int n = 1; n <= *other; ++n) times.push_back(*next + (*end - *next) * n / *other);
   const auto count = equal_steps(times);
   if (!count) return false;

@@ -25,6 +25,7 @@ constexpr double least_growth = 4.0 / 3;
 // step by the formula of StepReport.
 double StepLength::critical(double contact_stiffness) const {
   const double alone = critical_at_estimate_ * std::min(1.0, bound_at_estimate_ / frequency_bound_);
+  if (!std::isfinite(alone)) return 2 / std::sqrt(contact_stiffness);  // points without bonds: infinite without touch
   const double undamped = alone / std::sqrt(1 + 0.25 * alone * alone * contact_stiffness);
   return undamped * (std::sqrt(1 + damping_ * damping_) - damping_);
 }

@@ -201,10 +201,10 @@ std::string grid_of(const std::vector<int>& points, const std::vector<double>& l
 
 constexpr double density = 7800, bulk = 130e9, shear = 78e9;  // of the solid below
 
-std::string solid(const std::string& horizon) {
+std::string solid(const std::string& horizon, const std::string& block = "block_1") {
   return section("Materials", section("solid", key("Material Model", "Elastic") + key("Density", "7800") +
                                                    key("Bulk Modulus", "130e9") + key("Shear Modulus", "78e9"))) +
-         section("Blocks", section("all of it", key("Block Names", "block_1") + key("Material", "solid") +
+         section("Blocks", section("all of it", key("Block Names", block) + key("Material", "solid") +
                                                     typed("Horizon", "double", horizon)));
 }
 
@@ -262,7 +262,8 @@ TEST(DialectOfPeridigm, BodiesBeginDisplaced) {
 // it swings to −e in half a period of ω² = 18 K/(ρ ξ²).
 TEST(DialectOfPeridigm, StepsGoOnFromEquilibria) {
   const RunFolder folder;
-  const double load = 1e9, stretch = load * 4 / (18 * bulk), half = std::numbers::pi / (std::sqrt(18 * bulk / density) / 2);
+  const double load = 1e9, stretch = load * 4 / (18 * bulk),
+               half = std::numbers::pi / (std::sqrt(18 * bulk / density) / 2);
   const std::string held = "Prescribed Displacement";
   const std::string conditions = section(
       "Boundary Conditions",
@@ -314,7 +315,7 @@ TEST(DialectOfPeridigm, TheLastLoadCounts) {
   const RunFolder folder(Lattice{.nx = 2, .ny = 2, .nz = 2});
   const auto displacement = [&](const std::string& name, bool theirs) {
     const std::string deck =
-        section("Discretization", key("Type", "Exodus") + key("Input Mesh File", "bar.g")) + solid("2.1e-3") +
+        section("Discretization", key("Type", "Exodus") + key("Input Mesh File", "bar.g")) + solid("2.1e-3", "bar") +
         section("Boundary Conditions",
                 along("one", "Body Force", "foot", "x", "1e6") + along("two", "Body Force", "foot", "x", "2e6")) +
         explicit_steps("1e-9", "1e-9") +

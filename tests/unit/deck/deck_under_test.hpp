@@ -115,10 +115,8 @@ inline const std::string full_deck = R"xml(<?xml version="1.0"?>
   </ParameterList>
   <ParameterList name="Output">
     <Parameter name="Output File Type" type="string" value="ExodusII"/>
-    <Parameter name="Output Format" type="string" value="BINARY"/>
     <Parameter name="Output Filename" type="string" value="bar"/>
     <Parameter name="Output Frequency" type="int" value="100"/>
-    <Parameter name="Parallel Write" type="bool" value="true"/>
     <ParameterList name="Output Variables">
       <Parameter name="Displacement" type="bool" value="true"/>
       <Parameter name="Velocity" type="bool" value="false"/>

@@ -34,7 +34,8 @@ TEST(DeckOfPeridigm, HourglassCoefficients) {
   const DeckFolder folder;
   const Deck none = with(folder, poisson, poisson + key("Hourglass Coefficient", "double", "0.0"));
   EXPECT_EQ(residual_of(none.materials[0].stabilization), ResidualKind::none);
-  EXPECT_TRUE(none.notes.empty());
+  EXPECT_TRUE(
+      std::ranges::none_of(none.notes, [](const std::string& note) { return note.find("Hourglass") != note.npos; }));
   const Deck some = with(folder, poisson, poisson + key("Hourglass Coefficient", "double", "0.02"));
   EXPECT_EQ(residual_of(some.materials[0].stabilization), ResidualKind::own_gradient);
   EXPECT_EQ(some.materials[0].stabilization_coefficient, 0.005);
@@ -169,6 +170,8 @@ TEST(DeckOfPeridigm, EquilibriaByNox) {
             (std::vector<std::string>{
                 "Solver > NOXQuasiStatic is taken as QuasiStatic, of all its keys Number of Load Steps: "
                 "equilibria are found in another way",
+                "Materials > copper integrates the rate of deformation at the middle of a step, Peridigm at its end: "
+                "stresses differ by half a step's strain, relative to the strain",
                 "Solver > Peridigm Preconditioner has no effect here: equilibria are found in another way"}));
 }
 
