@@ -15,7 +15,6 @@ namespace strut {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double of_failed = 1e-200;  // a limit that every bond exceeds
 
 }  // namespace
 
@@ -30,7 +29,8 @@ void Fracture::set_limits(const Body& body, double time) {
            << " s; expected a number > 0";
       throw Error(text.str());
     }
-    of_block.push_back((1 + s) * (1 + s));
+    const double limit = 1 + (BondReleases::decide(block) ? BondReleases::least_stretch * s : s);
+    of_block.push_back(limit * limit);
   }
   limits_.resize(block_of_.size(), 0);
   for (std::size_t i = 0; i < limits_.size(); ++i) {
