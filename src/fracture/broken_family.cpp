@@ -8,7 +8,6 @@
 #include "materials/tangent.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/bonds.hpp"
-#include "mechanics/point_energy.hpp"
 #include "mechanics/shape_tensor.hpp"
 
 namespace strut {
@@ -74,16 +73,10 @@ void follow(MaterialBlock& block, std::size_t place, MaterialPoint& point, const
   std::visit(step, block.material.law);
 }
 
-// The strain, turned back, that a stress has in linear elasticity.
-Tensor elastic_strain(const materials::Moduli& moduli, const Symmetric& stress) {
-  return to_tensor(deviator(stress)) / (2 * moduli.shear) + trace(stress) / (9 * moduli.bulk) * Tensor::Identity();
-}
-
 // Makes the step start from the stretch and rotation that the intact bonds have at its start; the stress follows
-// its part of the jump or, if it `keeps` less than 1, falls to this fraction. Returns false if the volume changes too
-// much: then the intact bonds do not determine a gradient.
-bool set_start(MaterialBlock& block, std::size_t place, MaterialPoint& point, const Tensor& refitted, double keeps,
-               double dt) {
+// its part of the jump. Returns false if the volume changes too much: then the intact bonds do not determine a
+// gradient.
+bool set_start(MaterialBlock& block, std::size_t place, MaterialPoint& point, const Tensor& refitted, double dt) {
   constexpr double most = 2;  // factor by which the volume may grow or shrink
   const double before = point.deformation_gradient.determinant(), after = refitted.determinant();
   if (!(after > before / most && after < before * most)) return false;
@@ -91,22 +84,20 @@ bool set_start(MaterialBlock& block, std::size_t place, MaterialPoint& point, co
                old = symmetric(point.rotation.tensor().transpose() * point.deformation_gradient), jump = stretch - old;
   const Tensor strain = symmetric(2 * jump * (old + stretch).inverse());  // as in stress_update.hpp
   const double falls = -before * to_tensor(point.stress).cwiseProduct(strain).sum();
-  const Tensor follows = keeps < 1 ? (keeps - 1) * symmetric(elastic_strain(block.moduli(place), point.stress) * old)
-                                   : part_to_least(block.moduli(place), falls, strain) * jump;
-  follow(block, place, point, old, old + follows, stretch, dt);
+  follow(block, place, point, old, old + part_to_least(block.moduli(place), falls, strain) * jump, stretch, dt);
   point.deformation_gradient = refitted;
   point.rotation = Rotation(R);
   return true;
 }
 
-bool set_start_of_cell(Body& body, MaterialBlock& block, int k, const StepEnd& start, double keeps) {
+bool set_start_of_cell(Body& body, MaterialBlock& block, int k, const StepEnd& start) {
   bool holds = true;
   for (int q = 0; q < block.points_per_cell(); ++q) {
     const std::size_t place = block.place(k, q);
     const auto place_of = [&start](int j) { return start.place(j); };
     const Tensor F = body.fits->gradient_at(body, block.points[k], q, place_of);
     MaterialPoint point = block.cells[place];
-    holds = holds && set_start(block, place, point, F, keeps, start.dt);
+    holds = holds && set_start(block, place, point, F, start.dt);
     block.cells->set(place, point);
   }
   return holds;
@@ -126,14 +117,12 @@ bool refit(Body& body, MaterialBlock& block, int k, double most) {
   return body.fits->refit(body, block.points[k], block.flowed[k] > 0, most);
 }
 
-bool refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start, double gives) {
-  const int i = block.points[k];
-  const double has = gives > 0 ? body.domain.volume(i) * law_energy(body, block, k).elastic : 0;
-  const double keeps = has > 0 ? std::sqrt(std::max(0.0, 1 - gives / has)) : 1;
+bool refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start) {
   if (!refit(body, block, k, most)) return false;
   if (block.is_ordinary()) return true;
-  if (block.is_quadratic()) return set_start_of_cell(body, block, k, start, keeps);
-  return set_start(block, k, body.points[i], gradient_at_start(body, i, start), keeps, start.dt);
+  if (block.is_quadratic()) return set_start_of_cell(body, block, k, start);
+  const int i = block.points[k];
+  return set_start(block, k, body.points[i], gradient_at_start(body, i, start), start.dt);
 }
 
 void release(Body& body, MaterialBlock& block, int k) {

@@ -14,9 +14,8 @@ bool refit(Body& body, MaterialBlock& block, int k, double most);
 // The same while bonds break in a step; also false if the volume would jump by a factor of 2. The stretch of the
 // intact bonds differs from that of all bonds. Stress follows this jump as long as its energy decreases in that
 // direction, and is kept over the rest: a break releases energy, and must not create any where only compressed bonds
-// are left. With gives > 0 (J) the bonds break by what they release: the stress falls until it has given up this
-// energy.
-bool refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start, double gives);
+// are left.
+bool refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start);
 
 // The point carries no stress from now on, and keeps its mass.
 void release(Body& body, MaterialBlock& block, int k);

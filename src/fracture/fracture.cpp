@@ -109,7 +109,6 @@ Fracture::Fracture(Body& body) : travel_(body.domain) {
   set_crack_lengths(body);
   set_which(body);
   energies_ = BondEnergies(body);
-  releases_ = BondReleases(body);
   for (const MaterialPoint& point : body.points) whole_springs_.push_back(point.stabilization);
   block_of_.assign(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) block_of_[i] = domain.cloud.blocks[i];
@@ -151,23 +150,7 @@ void Fracture::start_step(const Body& body, std::span<const Vector> velocities, 
   const bool is_due = travel_.advance(body, velocities, dt, due);
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
   is_looked_at_ = is_due || by_time_ || any_fails || energies_.any();
-  if (!is_looked_at_) return;
-  keep_start(body);
-  if (releases_.any()) releases_.take(body, clusters_to_examine(body));
-}
-
-// Flags of the clusters with bonds that are stretched enough to release energy.
-std::vector<char> Fracture::clusters_to_examine(const Body& body) const {
-  std::vector<char> flags(due_.size(), 0);
-  for (const Part part : {Part::interior, Part::boundary}) {
-    over_breakable(body, part, [&](const MaterialBlock& block, int first, int last) {
-      if (!BondReleases::decide(block)) return;
-      for (int c = first; c < last; ++c) {
-        if (is_of(body, block, c) && (by_time_ || travel_.of(c) >= due_[c])) flags[c] = 1;
-      }
-    });
-  }
-  return flags;
+  if (is_looked_at_) keep_start(body);
 }
 
 void Fracture::look_at_all(const Body& body) {
@@ -225,54 +208,28 @@ void Fracture::break_bonds(Body& body, Part part, double time, double dt) {
   over_breakable(body, part, [&](MaterialBlock& block, int first, int last) {
     const std::size_t before = affected_.size();
     for (int c = first; c < last; ++c) {
-      if (!at_limit[c] || !is_of(body, block, c)) continue;
-      cut(body, block, c, bonds_to_cut(body, block, body.domain.families.lists[c]), dt);
+      if (at_limit[c] && is_of(body, block, c)) cut(body, block, c, dt);
     }
     if (block.lattice >= 0 && affected_.size() > before) set_off_stencil(body.domain, block);
   });
 }
 
-// The bits of those `stretched` members of a cluster whose bonds to its n-th neighbor hold: they do not release their
-// part of the fracture energy.
-unsigned Fracture::holding(const Body& body, const Cluster& cluster, std::size_t n, unsigned stretched) const {
-  const int j = cluster.near[n];
-  const bool far_decides = BondReleases::decide(body.blocks[block_of_[j]]);
-  unsigned bits = 0;
-  for (std::size_t l = 0; l < cluster.points.size(); ++l) {
-    if (!(stretched & cluster.mask[n] & (1u << l))) continue;
-    const int i = cluster.points[l];
-    const bool decides = BondReleases::decide(body.blocks[block_of_[i]]);
-    if (!decides && !far_decides) continue;
-    const double square = (body.current(j) - body.current(i)).squaredNorm() /
-                          (body.domain.reference(j) - body.domain.reference(i)).squaredNorm();
-    const auto breaks_alone = [&](int end, bool decided) {
-      return square > limits_[end] && (!decided || has_failed(end));
-    };
-    if (breaks_alone(i, decides) || breaks_alone(j, far_decides)) continue;
-    if (!releases_.breaks(body, i, j, decides, far_decides)) bits |= 1u << l;
-  }
-  return bits;
-}
-
-// For each neighbor of a cluster the members whose bonds to it break.
-Fracture::Decision Fracture::bonds_to_cut(const Body& body, const MaterialBlock& block, const Cluster& cluster) const {
+// Sets for each neighbor of a cluster the members whose bonds to it break; returns a bit for each member concerned.
+unsigned Fracture::bonds_to_cut(const Body& body, const MaterialBlock& block, const Cluster& cluster,
+                                std::vector<std::uint8_t>& gone) const {
   const unsigned there = (1u << cluster.points.size()) - 1;
-  Decision decision;
-  decision.gone.assign(cluster.near.size(), 0);
+  unsigned members = 0;
+  gone.assign(cluster.near.size(), 0);
   // load: fraction of the value at which the bond breaks
-  const auto over = [there](const Lanes& load) { return small::lanes_below_zero(Lanes(1 - load)) & there; };
-  const auto take = [&decision](std::size_t n, unsigned bits) {
-    decision.gone[n] |= static_cast<std::uint8_t>(bits);
-    decision.members |= bits;
+  const auto take = [&](std::size_t n, const Lanes& load) {
+    gone[n] |= static_cast<std::uint8_t>(small::lanes_below_zero(Lanes(1 - load)) & there);
+    members |= gone[n];
   };
-  Stretches{body.domain.sites.data(), limits_.data()}.over(cluster, [&](std::size_t n, const Lanes& load) {
-    const unsigned stretched = over(load);
-    take(n, releases_.any() && stretched ? stretched & ~holding(body, cluster, n, stretched) : stretched);
-  });
+  Stretches{body.domain.sites.data(), limits_.data()}.over(cluster, take);
   if (holds_energy(body, block)) {
-    energies_.over(body, cluster, start_, [&](std::size_t n, const Lanes& load, const Lanes&) { take(n, over(load)); });
+    energies_.over(body, cluster, start_, [&take](std::size_t n, const Lanes& load, const Lanes&) { take(n, load); });
   }
-  return decision;
+  return members;
 }
 
 namespace {
@@ -290,10 +247,11 @@ std::vector<std::vector<int>> families_of(const Cluster& cluster, unsigned membe
 
 }  // namespace
 
-void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number, const Decision& decision, double dt) {
+void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number, double dt) {
   Domain& domain = body.domain;
   const Cluster cluster = domain.families.lists[cluster_number];
-  const auto& [gone, members] = decision;
+  std::vector<std::uint8_t> gone;
+  const unsigned members = bonds_to_cut(body, block, cluster, gone);
   if (members == 0) return;
   const auto at = std::lower_bound(block.points.begin(), block.points.end(), cluster.points[0]);
   const int first = static_cast<int>(at - block.points.begin());
@@ -305,13 +263,11 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number, const D
                        balances_of(block, first, cluster, start),
                        {}});
   if (block.has_springs(ResidualKind::both_gradients)) affected_.back().families = families_of(cluster, members);
-  std::array<double, Cluster::width> gives{};
   for (std::size_t n = 0; n < gone.size(); ++n) {
     if (gone[n] == 0) continue;
     domain.families.lists.cut(cluster_number, n, gone[n]);
     for (std::size_t l = 0; l < cluster.points.size(); ++l) {
       if (!(gone[n] >> l & 1)) continue;
-      if (releases_.any()) gives[l] += releases_.given_up(body, cluster.points[l], cluster.near[n]);
       domain.families.broken[cluster.points[l]].push_back(cluster.near[n]);
     }
   }
@@ -321,7 +277,7 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number, const D
     const int k = first + static_cast<int>(l), i = cluster.points[l];
     if (block.lattice >= 0) domain.families.off_stencil[i] = 1;
     body.damage[i] = 1 - family_volume(domain, i) / whole_volume_[i];
-    if (body.released[i] > 0 || refit_in_step(body, block, k, most_steepness_[i], start, gives[l])) continue;
+    if (body.released[i] > 0 || refit_in_step(body, block, k, most_steepness_[i], start)) continue;
     release(body, block, k);
     body.released[i] = 1;
   }
@@ -396,7 +352,7 @@ void Fracture::count_springs(Body& body) {
 double Fracture::bytes() const {
   return static_cast<double>(limits_.size() * (sizeof(Vector) + 2 * sizeof(double)) + 2 * due_.size() * sizeof(double) +
                              whole_volume_.size() * (3 * sizeof(double) + sizeof(std::vector<int>))) +
-         energies_.bytes() + releases_.bytes() + travel_.bytes();
+         energies_.bytes() + travel_.bytes();
 }
 
 std::optional<Fracture> fracture_of(Body& body) {

@@ -20,7 +20,6 @@
 
 #include "base/archive.hpp"
 #include "fracture/bond_energies.hpp"
-#include "fracture/bond_release.hpp"
 #include "fracture/bond_work_balance.hpp"
 #include "fracture/travel.hpp"
 #include "mechanics/bond_breaking.hpp"
@@ -29,8 +28,6 @@ namespace strut {
 
 class Fracture : public BondBreaking {
  public:
-  static constexpr double of_failed = 1e-200;  // the limit of a failed point, which every bond exceeds
-
   // Collective. The families must be complete. Allocates the damage fields and sets the critical values of the blocks.
   explicit Fracture(Body& body);
 
@@ -58,11 +55,6 @@ class Fracture : public BondBreaking {
     std::array<BondWorkBalance, Cluster::width> before;
     std::vector<std::vector<int>> families;  // of the members, if they have springs on both ends' gradients
   };
-  // The bonds of a cluster that break in this step: for each neighbor a bit of each member that loses it.
-  struct Decision {
-    std::vector<std::uint8_t> gone;
-    unsigned members = 0;
-  };
   struct Stretches;
 
   void set_limits(const Body& body, double time);
@@ -74,13 +66,11 @@ class Fracture : public BondBreaking {
   void set_most_steepness(const Body& body);
   void keep_start(const Body& body);
   void look_at_all(const Body& body);
-  bool has_failed(int i) const { return limits_[i] == of_failed; }
   bool is_at_limit(const Body& body, const MaterialBlock& block, int cluster);
   bool holds_energy(const Body& body, const MaterialBlock& block) const;
-  std::vector<char> clusters_to_examine(const Body& body) const;
-  unsigned holding(const Body& body, const Cluster& cluster, std::size_t n, unsigned stretched) const;
-  Decision bonds_to_cut(const Body& body, const MaterialBlock& block, const Cluster& cluster) const;
-  void cut(Body& body, MaterialBlock& block, int cluster, const Decision& decision, double dt);
+  unsigned bonds_to_cut(const Body& body, const MaterialBlock& block, const Cluster& cluster,
+                        std::vector<std::uint8_t>& gone) const;
+  void cut(Body& body, MaterialBlock& block, int cluster, double dt);
   void count(Body& body, const Affected& one);
   void restore(Body& body, const std::vector<double>& bits, int words);
 
@@ -89,7 +79,6 @@ class Fracture : public BondBreaking {
   std::vector<double> limits_;                  // (1 + s_c)² of owned points and ghosts; infinite without
   bool by_time_ = false;                        // the limits change with time
   BondEnergies energies_;                       // of bonds in blocks with a critical bond energy
-  BondReleases releases_;                       // of bonds by correspondence with a fracture energy
   bool is_looked_at_ = false;                   // a bond may break in this step
   std::vector<Vector> start_;                   // positions of owned points and ghosts at the start of such a step, m
   std::vector<GradientState> start_gradients_;  // gradient states at the start of such a step

@@ -15,6 +15,7 @@ namespace strut {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double of_failed = 1e-200;  // a limit that every bond exceeds
 
 }  // namespace
 
@@ -29,8 +30,7 @@ void Fracture::set_limits(const Body& body, double time) {
            << " s; expected a number > 0";
       throw Error(text.str());
     }
-    const double limit = 1 + (BondReleases::decide(block) ? BondReleases::least_stretch * s : s);
-    of_block.push_back(limit * limit);
+    of_block.push_back((1 + s) * (1 + s));
   }
   limits_.resize(block_of_.size(), 0);
   for (std::size_t i = 0; i < limits_.size(); ++i) {
