@@ -11,15 +11,24 @@ namespace strut {
 namespace {
 
 // The third argument of a bench.
-enum Model { elastic_correspondence, plastic_correspondence, ordinary, plastic_mean_gradient, plastic_quadratic };
+enum Model {
+  elastic_correspondence,
+  plastic_correspondence,
+  ordinary,
+  plastic_mean_gradient,
+  plastic_quadratic,
+  quadratic_below_yield
+};
 
 BlockMaterial copper(std::int64_t model) {
   const auto e = std::get<materials::Elastic>(elastic(110e9, 0.296));
   if (model == elastic_correspondence) return {8960, e, SillingStabilization{0.02}};
   if (model == ordinary) return {8960, e, {}, Formulation::ordinary};
-  const materials::FlowStress flow{50e6, materials::PowerHardening{0.00218, 0.1}, materials::PowerRate{1e-3, 0.01}};
+  const double yield_stress = model == quadratic_below_yield ? 50e9 : 50e6;
+  const materials::FlowStress flow{yield_stress, materials::PowerHardening{0.00218, 0.1},
+                                   materials::PowerRate{1e-3, 0.01}};
   const materials::J2 law{e.bulk, e.shear, flow};
-  if (model == plastic_quadratic) return {8960, law, {}, Formulation::quadratic};
+  if (model == plastic_quadratic || model == quadratic_below_yield) return {8960, law, {}, Formulation::quadratic};
   if (model == plastic_mean_gradient) return {8960, law, MeanGradientStabilization{0.01}};
   return {8960, law, SillingStabilization{0.02}};
 }
@@ -189,6 +198,7 @@ BENCHMARK(step)
     ->Args({50, 1750, plastic_mean_gradient, 1})
     ->Args({50, 1750, plastic_mean_gradient, 0})
     ->Args({50, 1750, plastic_quadratic, 1})
+    ->Args({50, 1750, quadratic_below_yield, 1})
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
