@@ -41,7 +41,7 @@ constexpr StateVariable state_variable(std::string_view name) {
   const auto* found = std::find_if(state_variables.begin(), state_variables.end(),
                                    [name](const StateVariable& variable) { return variable.name == name; });
   if (found != state_variables.end()) return *found;
-  if (name.starts_with("User_State_")) return {name, "", "the state variable of this number of a user's library"};
+  if (name.starts_with("User_State_")) return {name, "any", "the state variable of this number of a user's library"};
   return {name, "1", "state of its material law"};
 }
 

@@ -25,7 +25,7 @@ bool may_reach(const Edge& edge, double radius, const strut::Vector& size) {
 }
 
 void print_edges(const Body& body) {
-  const Skeleton skeleton = foam_skeleton(body.size, body.cell, body.irregularity, body.seed);
+  const Skeleton skeleton = foam_skeleton(body.size, {body.cell, body.irregularity, body.seed});
   const VoxelGrid grid = grid_of(body);
   const auto wanted = static_cast<std::size_t>(std::llround(body.relative_density * static_cast<double>(grid.count())));
   const double radius = struts_around(skeleton.edges, grid, wanted).radius;

@@ -86,15 +86,14 @@ Section history_section() {
 }
 
 void add_probes(const Values& deck, std::vector<NodeSet>& sets) {
-  const Values* values = deck.find_section(name);
-  if (!values) return;
-  for (const Values& one : values->section(probes.name).sections())
+  if (!deck.has_section(name)) return;
+  for (const Values& one : deck.section(name).section(probes.name).sections())
     sets.push_back({.name = one.name(), .where = Function(), .nearest = one[place]});
 }
 
 History read_history(const Values& deck, const Solver& solver, Problems& problems) {
-  const Values* values = deck.find_section(name);
-  if (!values) return {};
+  if (!deck.has_section(name)) return {};
+  const Values* values = &deck.section(name);
   History history{.enabled = true,
                   .file = (*values)[file].value_or(""),
                   .variables = switched_on(values->section(variables.name), variable)};

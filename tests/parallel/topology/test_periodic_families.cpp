@@ -94,7 +94,7 @@ TEST(Periods, BondsRunThroughTheMaterialAtTheSides) {
   const Communicator world;
   PointCloud cloud;
   cloud.block_names = {"block"};
-  cloud.joined = true;
+  cloud.has_shared_nodes = true;
   const std::vector<Mirror> sides{{.on = Vector::Zero(), .normal = Vector::UnitX(), .bit = 0, .period = 4},
                                   {.on = 4 * Vector::UnitX(), .normal = -Vector::UnitX(), .bit = 0, .period = 4}};
   const auto solid = [](int x, int z) {
@@ -107,15 +107,15 @@ TEST(Periods, BondsRunThroughTheMaterialAtTheSides) {
     cloud.positions.emplace_back(x + 0.5, 0.5, z + 0.5);
     cloud.volumes.push_back(1), cloud.spacings.push_back(1), cloud.blocks.push_back(0), cloud.sets.push_back(0);
     cloud.shapes.emplace_back();
-    std::vector<std::int64_t>& joints = cloud.joints.emplace_back();
+    std::vector<std::int64_t>& joints = cloud.shared_nodes.emplace_back();
     for (int corner = 0; corner < 8; ++corner) {
       const Vector X(x + corner % 2, corner / 2 % 2, z + corner / 4);
-      joints.push_back(joint_at(X, std::lround(X[0] + 10 * X[1] + 100 * X[2]), sides, 1));
+      joints.push_back(shared_node_at(X, std::lround(X[0] + 10 * X[1] + 100 * X[2]), sides, 1));
     }
     std::sort(joints.begin(), joints.end());
   }
   BlockBonds bonds(2.1);
-  bonds.through_material = true;
+  bonds.visible_only = true;
   bonds.families = FamilyKind::lists;
   const Domain domain =
       make_domain(partitioned(std::move(cloud), world), {bonds}, world, {}, {}, {{0, 4, 0, Function(1)}});
