@@ -108,15 +108,23 @@ std::string open_sides(const deck::Deck& deck, const Domain& domain) {
   std::vector<Vector> shifts(domain.sites.size(), Vector::Zero());
   for (const ImagePoint& image : domain.halo.images()) shifts[image.ghost] = image.by.period;
   for (const Period& period : domain.periods) {
-    double counts[] = {0, 0};  // elements with a node on the upper side, and those of them without a neighbor above
+    // Elements with a node on the upper side, those of them without a neighbor above, all that have nodes.
+    double counts[] = {0, 0, 0};
     for (int i = 0; i < domain.owned && !domain.cloud.shared_nodes.empty(); ++i) {
       const auto is_on_side = [&](std::int64_t node) { return (node >> (first_plane_bit + period.axis) & 1) != 0; };
+      counts[2] += domain.cloud.shared_nodes[i].empty() ? 0 : 1;
       if (std::ranges::none_of(domain.cloud.shared_nodes[i], is_on_side)) continue;
       bool meets = false;
       domain.families.for_each(i, [&](int j) { meets = meets || shifts[j][period.axis] > 0; });
       ++counts[0], counts[1] += meets ? 0 : 1;
     }
     domain.communicator.sum(counts);
+    if (counts[2] > 0 && counts[0] == 0) {
+      throw Error(
+          path_of(deck, period.number) +
+          ": no element has a node on the upper side, which cuts elements or lies beyond the mesh; expected sides "
+          "at the faces of the mesh");
+    }
     if (counts[1] == 0) continue;
     std::ostringstream text;
     text

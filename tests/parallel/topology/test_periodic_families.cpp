@@ -107,12 +107,12 @@ TEST(Periods, BondsRunThroughTheMaterialAtTheSides) {
     cloud.positions.emplace_back(x + 0.5, 0.5, z + 0.5);
     cloud.volumes.push_back(1), cloud.spacings.push_back(1), cloud.blocks.push_back(0), cloud.sets.push_back(0);
     cloud.shapes.emplace_back();
-    std::vector<std::int64_t>& joints = cloud.shared_nodes.emplace_back();
+    std::vector<std::int64_t>& nodes = cloud.shared_nodes.emplace_back();
     for (int corner = 0; corner < 8; ++corner) {
       const Vector X(x + corner % 2, corner / 2 % 2, z + corner / 4);
-      joints.push_back(shared_node_at(X, std::lround(X[0] + 10 * X[1] + 100 * X[2]), sides, 1));
+      nodes.push_back(shared_node_at(X, std::lround(X[0] + 10 * X[1] + 100 * X[2]), sides, 1));
     }
-    std::sort(joints.begin(), joints.end());
+    std::sort(nodes.begin(), nodes.end());
   }
   BlockBonds bonds(2.1);
   bonds.visible_only = true;

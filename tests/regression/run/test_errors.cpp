@@ -445,7 +445,7 @@ TEST_F(Mistake, UnknownVariables) {
   expect_error(changed(deck, "\"Max_Displacement\"", "\"Max_Displacment\""),
                {"History > Variables > Max_Displacment", "did you mean 'Max_Displacement'"});
   expect_error(changed(deck, "\"Max_Displacement\"", "\"Displacement\""),
-               {"History > Variables > Displacement", "expected Max_, Min_ or Mean_"});
+               {"History > Variables > Displacement", "expected Max_, Min_, Mean_ or Sum_"});
   expect_error(
       changed(deck, "\"Max_Displacement\"", "\"Max_Displacement(fot)\""),
       {"History > Variables > Max_Displacement(fot): there is no node set or block 'fot' (did you mean 'foot'?)",
@@ -519,7 +519,7 @@ TEST_F(Mistake, MeansAndContactForcesOfTheHistory) {
                     section("Variables", key(name, "true"));
     return parts.text();
   };
-  expect_error(with("Mean_Velocity_W"), {"expected Mean_ and the name of a variable (did you mean 'Mean_Velocity"});
+  expect_error(with("Mean_Velocity_W"), {"expected Mean_ or Sum_ and the name of a variable (did you mean 'Mean_Velocity"});
   expect_error(with("Mean_Velocity_Z(slces)"), {"there is no node set or block 'slces'"});
   expect_error(with("Mean_Velocity_Z(slices)", "1000"),
                {"History > Profiles > slices: layer 1 of 1000 holds no point"});

@@ -249,7 +249,7 @@ TEST_F(FoamRecipe, WrongRecipesAreRefused) {
       {"shape = foam\nsize = 1 1 1\nspacing = 0.05\ncell = 0.4\nrelative_density = 0.01\n", "take a smaller spacing"},
       {"shape = foam\nsize = 1 1 1\nspacing = 1e-4\ncell = 0.4\n" + density, "more than 10⁸ cells"},
       {cube + density + "sizes = 2\n", "line 7: sizes is '2', expected a number from 0 to 0.6"},
-      {cube + density + "relax = 1.5\n", "relax is no whole number"},
+      {cube + density + "relax = 1.5\n", "expected a whole number from 0 to 1000"},
       {cube + density + "stretch = 1 1 9\n", "expected three numbers from 0.2 to 5"},
       {cube + density + "section = square\n", "section is 'square', expected round or three-cornered"},
       {cube + density + "thickness = 0.1\n", "a foam has no key 'thickness'"},
