@@ -97,5 +97,19 @@ def parse(page):
     return whole
 
 
+def pruned(whole, not_drawn):
+    """Without these choices: {path of the key: choices}."""
+    for section in whole.within():
+        for name, choices in ((path.rpartition(" > ")[2], choices) for path, choices in not_drawn.items()
+                              if path.rpartition(" > ")[0] == section.path):
+            if name in section.keys:
+                section.keys[name].choices = [one for one in section.keys[name].choices if one not in choices]
+            if name == section.selector:
+                section.cases = {one: case for one, case in section.cases.items() if one not in choices}
+    return whole
+
+
 def schema_of(strut):
-    return parse(subprocess.run([strut, "--keys"], check=True, capture_output=True, text=True).stdout)
+    from values import CHOICES_NOT_DRAWN
+    page = subprocess.run([strut, "--keys"], check=True, capture_output=True, text=True).stdout
+    return pruned(parse(page), CHOICES_NOT_DRAWN)

@@ -81,6 +81,8 @@ def force(c):
 
 # By "case or section > key", or the key alone.
 VALUES = {
+    "Relaxation > Fractions": lambda c: Num([c.uniform(0.1, 0.4), c.uniform(0.1, 0.4)], ""),
+    "Relaxation > Times": lambda c: Num([c.time * c.uniform(0.05, 0.5), c.time * c.uniform(0.5, 5)], "s"),
     # Materials
     "Density": lambda c: Num(c.rho, "kg/m³"),
     **{name: modulus(name) for name in ("Bulk Modulus", "Shear Modulus", "Young's Modulus", "Poisson's Ratio")},
@@ -193,6 +195,9 @@ NOT_DRAWN = {
     "Discretization > Bond Filters > (any name)": COMPOSED,
     "Discretization > TensorProduct3DMeshGenerator": COMPOSED,
     "Discretization > Type": COMPOSED,
+    "Solver 2": Not("steps after equilibria: unit/deck, regression/deck/test_peridigm"),
+    **{f"Materials > (any name) > {key}": Not("fits two elastic constants only: contract/test_hyperelastic")
+       for key in ("C10", "C01", "Ogden Moduli", "Ogden Exponents")},
     "Node Sets > (any name)": COMPOSED,
     "Blocks > (any name) > Block Names": COMPOSED,
     "Blocks > (any name) > Material": COMPOSED,
@@ -234,4 +239,12 @@ GROUPS = {
     "Critical Stretch": [(1, ("Critical Stretch", "Fracture Energy"))],
     "Bond Energy": [(1, ("Critical Bond Energy", "Fracture Energy"))],
     "Blocks > (any name)": [(1, ("Horizon", "Horizon Factor"))],
+}
+
+# Choices that no scene has, with what tests them.
+CHOICES_NOT_DRAWN = {
+    "Discretization > Type": {"Memory": "regression/python"},
+    "Materials > (any name) > Material Model": {"User Library": "regression/materials/test_user_library"},
+    "Boundary Conditions > (any name) > Type": {"Periodic Sides": "regression/conditions/test_periodic_sides",
+                                                "Initial Displacement": "unit/deck, regression/deck/test_peridigm"},
 }

@@ -142,6 +142,12 @@ void check_damage_model(const Values& section, const Material& material, const N
                      "' cannot break: it has an Equation of State, and what its points "
                      "hold is not known once they carry no stress; expected one without");
   }
+  if (std::holds_alternative<materials::Hyperelastic>(material.law)) {
+    problems.add(section.path_to(damage_model),
+                 "bonds of material '" + material.name +
+                     "' cannot break: the stress of a Hyperelastic point would follow the jump of its deformation "
+                     "gradient, and breaks would give energy; expected another law, or no Damage Model");
+  }
   if (is_known && asks_for_temperature(model) && !knows_temperature(material)) {
     problems.add(section.path_to(damage_model),
                  "'" + named.name + "' has D5, but material '" + material.name +

@@ -100,5 +100,25 @@ TEST(UserLibrary, ThatCannotBeUsedIsRefused) {
   }
 }
 
+// Its stress is a function of the stretch: where bonds break, the gradient of a family jumps, and the energy with it.
+TEST(Hyperelastic, DoesNotBreak) {
+  Parts parts;
+  parts.materials = section("copper", key("Material Model", "Hyperelastic") + key("Density", "1100") +
+                                          key("Shear Modulus", "4e6") + key("Bulk Modulus", "40e6"));
+  parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.1"));
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                      key("Damage Model", "brittle"));
+  const RunFolder folder;
+  std::string error;
+  try {
+    deck::read(folder.write("deck.xml", parts.text()), folder.world);
+  } catch (const Error& found) {
+    error = found.what();
+  }
+  EXPECT_NE(error.find("bonds of material 'copper' cannot break: the stress of a Hyperelastic point"),
+            std::string::npos)
+      << error;
+}
+
 }  // namespace
 }  // namespace strut::regression
