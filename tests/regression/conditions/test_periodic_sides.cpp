@@ -200,7 +200,7 @@ TEST(PeriodicContact, MeetsTheImageBehindTheSide) {
   const std::string penalty = key("Contact Model", "Short Range Force") + key("Spring Constant", "1e12");
   for (const std::string& contact : {contact_by(penalty, pair, "1.1e-3", "0.3"), contact_by(penalty, pair, "1.1e-3")}) {
     const std::vector<Vector> across = meeting(true, contact), there = meeting(false, contact);
-    if (across.empty()) return;
+    if (across.empty()) continue;  // other ranks
     double moved = 0;  // of the struck block
     for (std::size_t i = 0; i < there.size() / 2; ++i) moved = std::max(moved, there[i].norm());
     EXPECT_GT(moved, 1e-4);
