@@ -87,7 +87,12 @@ void look_at_files(Deck& deck, Problems& problems) {
 }
 
 // Decks of other programs would give an error a line; one tells where to look.
-void refuse_other_programs(List& deck, const fs::path& file, Problems& problems) {
+void refuse_cabanapds(const std::string& text, const fs::path& file, Problems& problems) {
+  if (text.find("\"num_cells\"") == std::string::npos) return;
+  problems.add("num_cells", "this is an input of CabanaPD, whose words inputs/from-cabanapd.md translates");
+  problems.raise(file.string());
+}
+void refuse_perilabs(List& deck, const fs::path& file, Problems& problems) {
   const bool is_perilabs = find_list(deck, "Outputs") && (find_list(deck, "Models") || find_list(deck, "Physics"));
   if (!is_perilabs) return;
   problems.add("Models, Outputs",
@@ -96,7 +101,7 @@ void refuse_other_programs(List& deck, const fs::path& file, Problems& problems)
   problems.raise(file.string());
 }
 
-// What only a program that runs strut can do without: it hands over a mesh, and takes the rows of the history.
+// A script in Python hands over a mesh and takes the rows of the history: a deck that runs without one needs files.
 void check_runs_alone(const Deck& deck, Problems& problems) {
   if (deck.discretization.type == MeshType::memory) {
     problems.add(
@@ -110,13 +115,10 @@ void check_runs_alone(const Deck& deck, Problems& problems) {
 enum class FileCheck { no, yes };
 
 Deck parse(const std::string& text, const fs::path& file, FileCheck file_check, Problems& problems) {
-  if (text.find("\"num_cells\"") != std::string::npos) {
-    problems.add("num_cells", "this is an input of CabanaPD, whose words inputs/from-cabanapd.md translates");
-    problems.raise(file.string());
-  }
+  refuse_cabanapds(text, file, problems);
   auto list = parse_xml_or_yaml(text, problems);
   if (!list) problems.raise(file.string());
-  refuse_other_programs(*list, file, problems);
+  refuse_perilabs(*list, file, problems);
   const bool from_peridigm = translate_peridigm(*list, file.parent_path(), problems);
   report_duplicates(*list, "", problems);
   const Values values = check(*list, schema(), "", problems);

@@ -91,9 +91,8 @@ class Differences {
     List* solver = find_list(deck_, "Solver");
     List* steps = solver ? find_list(*solver, "Verlet") : nullptr;
     if (!steps) return;
-    const auto dt = to_real(value_of(*steps, "Fixed dt"));
-    const double duration =
-        to_real(value_of(*solver, "Final Time")).value_or(0) - to_real(value_of(*solver, "Initial Time")).value_or(0);
+    const auto dt = real_of(*steps, "Fixed dt");
+    const double duration = real_of(*solver, "Final Time").value_or(0) - real_of(*solver, "Initial Time").value_or(0);
     if (!dt) {
       problems_.note("Solver > Verlet",
                      "has no Fixed dt: the critical time step is estimated in another way (by the highest frequency), "
@@ -136,7 +135,7 @@ class Differences {
       problems_.note("Contact > Models > " + model.name + " > Contact Radius",
                      "is the distance from which points push each other; those of two bodies that start nearer do so "
                      "from that distance on, in Peridigm from the radius on, so that they push at once");
-      if (to_real(value_of(model, "Friction Coefficient")).value_or(0) > 0) {
+      if (real_of(model, "Friction Coefficient").value_or(0) > 0) {
         problems_.note("Contact > Models > " + model.name + " > Friction Coefficient",
                        "acts across the normal of the surface, and no more than stops the sliding; in Peridigm across "
                        "the bond, always the whole");
@@ -168,7 +167,8 @@ bool has_peridigms_solver(List& deck) {
                                     "Disable Heuristics", "Time Steps"}));
   };
   return std::ranges::any_of(deck.lists, [&](List& one) {
-    return one.name.starts_with("Solver") && (one.name != "Solver" || is_theirs(one));
+    const bool is_our_name = one.name == "Solver" || one.name == "Solver 2";
+    return one.name.starts_with("Solver") && (!is_our_name || is_theirs(one));
   });
 }
 

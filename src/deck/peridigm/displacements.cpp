@@ -56,7 +56,7 @@ void translate(List& condition, double time, Problems& problems) {
 void translate_displacements(List& deck, Problems& problems) {
   List *conditions = find_list(deck, "Boundary Conditions"), *solver = find_list(deck, "Solver");
   if (!conditions || !solver) return;
-  const double time = to_real(value_of(*solver, "Initial Time")).value_or(0);
+  const double time = real_of(*solver, "Initial Time").value_or(0);
   for (List& condition : conditions->lists) translate(condition, time, problems);
 }
 

@@ -1,5 +1,5 @@
-// What Peridigm has and this program has not: reported by name, once, with the reason. What hangs on it (keys of the
-// law, conditions of its field) is taken out, so that no second message misleads.
+// Abilities of Peridigm that do not exist here are reported by name, once, with the reason. Keys and conditions that
+// belong to them are taken out of the deck, so that no second message misleads.
 #include <algorithm>
 #include <map>
 

@@ -175,7 +175,7 @@ void translate_blocks(List& deck, Problems& problems) {
   translate_omitted_bonds(*discretization, *blocks, problems);
 }
 
-// What Peridigm does without a key.
+// Peridigm's defaults, where ours differ.
 void add_defaults(List& mesh, Problems& problems) {
   const auto add = [&](const std::string& key, const std::string& value) {
     if (!find_parameter(mesh, key)) mesh.parameters.push_back({key, "string", value});
@@ -193,7 +193,7 @@ const char* const axis_endings[] = {"_X", "_Y", "_Z"};
 std::optional<Vector> vector_of(List& filter, const std::string& name) {
   Vector vector;
   for (int c = 0; c < 3; ++c) {
-    const auto part = to_real(value_of(filter, name + axis_endings[c]));
+    const auto part = real_of(filter, name + axis_endings[c]);
     if (!part) return std::nullopt;
     vector[c] = *part;
   }
@@ -269,6 +269,8 @@ std::string value_of(const List& list, const std::string& name) {
   return "";
 }
 
+std::optional<double> real_of(const List& list, const std::string& name) { return to_real(value_of(list, name)); }
+
 void erase_parameter(List& list, const std::string& name) {
   std::erase_if(list.parameters, [&](const Parameter& one) { return one.name == name; });
 }
@@ -286,7 +288,7 @@ bool translate_peridigm(List& deck, const std::filesystem::path& folder, Problem
   translate_materials(deck, problems);
   translate_conditions(deck);
   refuse_what_is_missing(deck, problems);
-  translate_solvers(deck, problems);
+  translate_solvers(deck, is_theirs, problems);
   if (is_theirs) translate_displacements(deck, problems);
   translate_outputs(deck, is_theirs, problems);
   if (differs) tell_differences(deck, problems);

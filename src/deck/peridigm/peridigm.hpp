@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "deck/problems.hpp"
@@ -19,16 +20,16 @@ bool is_peridigms(List& deck);
 // True if it has such that ours have seldom: differences are told.
 bool may_be_peridigms(List& deck);
 
-// What Peridigm's reader of decks does and ours does not: the last of several equal keys counts, \{ is a brace, files
-// are relative to the working folder. Only for its decks.
+// Reads a deck of Peridigm as its own reader does: the last of several equal keys counts, \{ is a brace, files are
+// relative to the working folder.
 void read_as_peridigm(List& deck, const std::filesystem::path& folder, Problems& problems);
 
 // Reports sections, laws and conditions that do not exist here, each once, and takes them and their keys out of the
 // deck.
 void refuse_what_is_missing(List& deck, Problems& problems);
 
-// Converts Solver1, Solver2 … and the solvers for equilibria.
-void translate_solvers(List& deck, Problems& problems);
+// Converts the solvers for equilibria, and Solver1, Solver2 … of Peridigm's decks.
+void translate_solvers(List& deck, bool is_theirs, Problems& problems);
 
 // Prescribed displacements that are not zero at the initial time: Peridigm adds up increments since then.
 void translate_displacements(List& deck, Problems& problems);
@@ -43,6 +44,7 @@ void tell_differences(List& deck, Problems& problems);
 Parameter* find_parameter(List& list, const std::string& name);
 List* find_list(List& list, const std::string& name);
 std::string value_of(const List& list, const std::string& name);  // "" if there is none
+std::optional<double> real_of(const List& list, const std::string& name);
 std::string tidied(std::string text);  // in lower case, with blanks for _: as Peridigm compares words
 void erase_parameter(List& list, const std::string& name);
 void erase_list(List& list, const std::string& name);

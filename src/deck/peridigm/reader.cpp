@@ -1,4 +1,4 @@
-// What Peridigm's reader of decks does and ours does not.
+// Differences between Peridigm's reader of decks and ours.
 #include <algorithm>
 #include <functional>
 #include <set>

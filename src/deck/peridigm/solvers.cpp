@@ -31,8 +31,6 @@ void set(List& list, const std::string& name, const std::string& type, const std
   list.parameters.push_back({name, type, value});
 }
 
-std::optional<double> real_of(List& list, const std::string& name) { return to_real(value_of(list, name)); }
-
 // The number of equal steps that have all of these times among theirs; nothing if there would be too many.
 std::optional<int> equal_steps(const std::vector<double>& times) {
   constexpr int most = 1000;
@@ -119,25 +117,25 @@ bool join(List& first, List& second, Problems& problems) {
 
 }  // namespace
 
-void translate_solvers(List& deck, Problems& problems) {
+void translate_solvers(List& deck, bool is_theirs, Problems& problems) {
   std::vector<List> solvers;
-  for (const List& one : deck.lists) {
-    if (one.name.starts_with("Solver")) solvers.push_back(one);
+  for (List& one : deck.lists) {
+    if (!one.name.starts_with("Solver")) continue;
+    translate(one, problems);
+    solvers.push_back(one);
   }
-  if (solvers.empty()) return;
+  if (solvers.empty() || !is_theirs) return;
   std::erase_if(deck.lists, [](const List& one) { return one.name.starts_with("Solver"); });
-  std::ranges::stable_sort(solvers, {},
-                           [](const List& one) { return to_real(value_of(one, "Initial Time")).value_or(0); });
+  std::ranges::stable_sort(solvers, {}, [](const List& one) { return real_of(one, "Initial Time").value_or(0); });
   std::vector<List> joined;
   for (List& one : solvers) {
-    translate(one, problems);
     if (joined.empty() || !join(joined.back(), one, problems)) joined.push_back(one);
   }
   joined.front().name = "Solver";
   for (std::size_t n = 1; n < joined.size(); ++n) {
     const std::string name = joined[n].name;
     joined[n].name = "Solver " + std::to_string(n + 1);
-    if (n != 1 || !find_list(joined[n], "Verlet")) continue;
+    if (n != 1 || !find_list(joined[n], "Verlet") || find_parameter(joined[n], "Keep Velocities")) continue;
     set(joined[n], "Keep Velocities", "bool", "true");
     problems.note(name, "goes on from the last equilibrium, with the velocities of its load step, as in Peridigm");
   }

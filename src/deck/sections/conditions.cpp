@@ -67,9 +67,9 @@ const ExpressionKey stretch(
 Section periodic_sides() {
   return {.name = "Periodic Sides",
           .meaning =
-              "What leaves through one side comes in through the other: all bodies, and contact, go on behind each "
-              "as they are behind the other. Elements end at both. Its reaction is the force through the section "
-              "along the axis, tension positive.",
+              "A point that leaves through one side comes in through the other: behind each side all bodies, and "
+              "contact, continue with their images one period away. Elements end at both sides. The reaction is the "
+              "force through the section along the axis, tension positive.",
           .keys = {components, lower_side, upper_side, stretch}};
 }
 

@@ -93,14 +93,14 @@ void add_probes(const Values& deck, std::vector<NodeSet>& sets) {
 
 History read_history(const Values& deck, const Solver& solver, Problems& problems) {
   if (!deck.has_section(name)) return {};
-  const Values* values = &deck.section(name);
+  const Values& values = deck.section(name);
   History history{.enabled = true,
-                  .file = (*values)[file].value_or(""),
-                  .variables = switched_on(values->section(variables.name), variable)};
-  for (const Values& one : values->section(cracks.name).sections()) history.cracks.push_back(read_crack(one, problems));
-  for (const Values& one : values->section(profiles.name).sections())
+                  .file = values[file].value_or(""),
+                  .variables = switched_on(values.section(variables.name), variable)};
+  for (const Values& one : values.section(cracks.name).sections()) history.cracks.push_back(read_crack(one, problems));
+  for (const Values& one : values.section(profiles.name).sections())
     history.profiles.push_back(read_profile(one, problems));
-  read_when(*values, when, solver.duration(), history, problems);
+  read_when(values, when, solver.duration(), history, problems);
   return history;
 }
 

@@ -309,7 +309,7 @@ TEST(DialectOfPeridigm, LonePointsFlyOn) {
   EXPECT_EQ(x[1], 0);
 }
 
-// Of several loads on a point along an axis the last one counts, also with node sets of the mesh; in our decks they add
+// The last one of several loads on a point along an axis counts, also with node sets of the mesh; in our decks they add
 // up.
 TEST(DialectOfPeridigm, TheLastLoadCounts) {
   const RunFolder folder(Lattice{.nx = 2, .ny = 2, .nz = 2});

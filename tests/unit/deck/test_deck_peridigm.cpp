@@ -479,6 +479,29 @@ TEST(DeckOfPeridigm, SolversFollowEachOther) {
       std::string::npos);
 }
 
+// "Solver 2" is a section of ours: it makes no deck one of Peridigm's, and points begin its steps as it says.
+TEST(DeckOfPeridigm, OurSecondSolverKeepsItsMeaning) {
+  const DeckFolder folder;
+  const auto two = [](const std::string& first, const std::string& second, const std::string& keys) {
+    const std::string steps = list("QuasiStatic", ""), old = key("Final Time", "double", "2e-4");
+    return changed(
+        small_deck, "<ParameterList name=\"Solver\">\n    " + old + "  </ParameterList>\n",
+        list(first, key("Final Time", "double", "1") + steps) + list(second, key("Final Time", "double", "2") + keys));
+  };
+  for (const bool keeps : {false, true}) {
+    const std::string keep = key("Keep Velocities", "bool", keeps ? "true" : "false");
+    const Deck deck = folder.read(two("Solver", "Solver 2", keep));
+    EXPECT_FALSE(deck.from_peridigm);
+    ASSERT_TRUE(deck.next_solver);
+    EXPECT_EQ(deck.next_solver->keeps_velocities, keeps);
+    EXPECT_TRUE(deck.notes.empty());
+  }
+  EXPECT_FALSE(folder.read(two("Solver", "Solver 2", "")).next_solver->keeps_velocities);
+  EXPECT_NE(folder.error(two("Solver", "Solver", "")).find("Solver: given 2 times; expected once"), std::string::npos);
+  EXPECT_TRUE(
+      folder.read(two("Solver1", "Solver 2", key("Initial Time", "double", "1") + list("Verlet", ""))).from_peridigm);
+}
+
 // Its sections may be the outermost keys, too; the places of errors are those of the text.
 TEST(DeckOfPeridigm, YamlNeedsNoKeyAroundAll) {
   const DeckFolder folder;
