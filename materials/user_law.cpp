@@ -85,14 +85,30 @@ std::array<char, name_length> fortran_text(const std::string& name) {
   return text;
 }
 
+// The arguments of both user subroutines of Abaqus that all points share. They take one point at a time: in substeps,
+// points have steps of their own.
+struct Fixed {
+  explicit Fixed(const UserLaw& law)
+      : cmname(fortran_text(law.name)),
+        props(const_cast<double*>(law.constants.data())),  // Fortran knows no constants
+        nprops(static_cast<int>(law.constants.size())),
+        nstatv(law.states),
+        copied(std::min(law.states + 1, most)) {}
+
+  std::array<char, name_length> cmname;
+  double* props;
+  int ndir = 3, nshr = 3, nprops, nstatv;
+  int copied;  // state variables: one more than the library has, so that a trial finds one that changes it (tried)
+};
+
 void call_umat(const UserLaw& law, const strut_step& s) {
   // UMAT's shear components are xy xz yz, and shear strains are doubled.
   constexpr int place[6] = {0, 1, 2, 3, 5, 4};
-  std::array<char, name_length> cmname = fortran_text(law.name);
-  std::vector<double>& props = const_cast<std::vector<double>&>(law.constants);
+  constexpr int full[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+  Fixed fixed(law);
   for (int p = 0; p < s.points; ++p) {
     const auto at = [&](const double* values, int c) { return values[c * s.points + p]; };
-    double stress[6], strain[6], increment[6], statev[most + 1] = {}, before[9], after[9];
+    double stress[6], strain[6], increment[6], statev[most], before[9], after[9];
     for (int c = 0; c < 6; ++c) {
       const int from = place[c];
       const double doubled = c < 3 ? 1 : 2;
@@ -100,62 +116,53 @@ void call_umat(const UserLaw& law, const strut_step& s) {
       strain[c] = doubled * at(s.strain, from);
       increment[c] = doubled * at(s.rate, from) * s.dt[p];
     }
-    constexpr int full[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
     for (int k = 0; k < 9; ++k) before[k] = at(s.old_stretch, full[k]), after[k] = at(s.stretch, full[k]);
-    for (int c = 0; c < law.states; ++c) statev[c] = at(s.state, c);
-    const double told = s.stored[p], lost = s.dissipated[p];
-    double ddsdde[36] = {}, sse = told / s.J[p], spd = lost / s.J[p], scd = 0, rpl = 0, ddsddt[6] = {}, drplde[6] = {};
-    double drpldt = 0, time[2] = {s.time[p], s.time[p]}, dtime = s.dt[p], temp = 0, dtemp = 0, predef = 0, dpred = 0;
-    double coords[3] = {}, drot[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, pnewdt = 1, celent = 0;
-    int ndi = 3, nshr = 3, ntens = 6, nstatv = law.states, nprops = static_cast<int>(props.size()), noel = 1, npt = 1;
-    int layer = 1, kspt = 1, jstep[4] = {1, 0, 0, 0}, kinc = 1;
+    for (int c = 0; c < fixed.copied; ++c) statev[c] = at(s.state, c);
+    double ddsdde[36] = {}, sse = s.stored[p] / s.J[p], spd = s.dissipated[p] / s.J[p], scd = 0, rpl = 0;
+    double ddsddt[6] = {}, drplde[6] = {}, drpldt = 0, time[2] = {s.time[p], s.time[p]}, dtime = s.dt[p], temp = 0;
+    double dtemp = 0, predef = 0, dpred = 0, coords[3] = {}, drot[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, pnewdt = 1;
+    double celent = 0;
+    int ntens = 6, noel = 1, npt = 1, layer = 1, kspt = 1, jstep[4] = {1, 0, 0, 0}, kinc = 1;
     reinterpret_cast<Umat>(law.function.address)(
         stress, statev, ddsdde, &sse, &spd, &scd, &rpl, ddsddt, drplde, &drpldt, strain, increment, time, &dtime, &temp,
-        &dtemp, &predef, &dpred, cmname.data(), &ndi, &nshr, &ntens, &nstatv, props.data(), &nprops, coords, drot,
-        &pnewdt, &celent, before, after, &noel, &npt, &layer, &kspt, jstep, &kinc, name_length);
+        &dtemp, &predef, &dpred, fixed.cmname.data(), &fixed.ndir, &fixed.nshr, &ntens, &fixed.nstatv, fixed.props,
+        &fixed.nprops, coords, drot, &pnewdt, &celent, before, after, &noel, &npt, &layer, &kspt, jstep, &kinc,
+        name_length);
     for (int c = 0; c < 6; ++c) s.stress[place[c] * s.points + p] = stress[c];
-    for (int c = 0; c < law.states; ++c) s.state[c * s.points + p] = statev[c];
+    for (int c = 0; c < fixed.copied; ++c) s.state[c * s.points + p] = statev[c];
     s.stored[p] = s.J[p] * sse, s.dissipated[p] = s.J[p] * (spd + scd);
     s.failed[p] = pnewdt < 1;
   }
 }
 
 void call_vumat(const UserLaw& law, const strut_step& s) {
-  const int n = s.points;
-  std::array<char, name_length> cmname = fortran_text(law.name);
-  std::vector<double>& props = const_cast<std::vector<double>&>(law.constants);
-  double density[most_points], increment[6 * most_points], none[9 * most_points] = {}, old_stress[6 * most_points];
-  double old_state[most * most_points], before[9 * most_points], after[9 * most_points];
-  double intern[most_points], inelastic[most_points], new_intern[most_points], new_inelastic[most_points];
   constexpr int full[9] = {0, 1, 2, 3, 4, 5, 3, 4, 5};  // 11 22 33 12 23 31 21 32 13
-  for (int k = 0; k < 9; ++k) {
-    for (int p = 0; p < n; ++p) {
-      before[k * n + p] = s.old_stretch[full[k] * n + p], after[k * n + p] = s.stretch[full[k] * n + p];
+  Fixed fixed(law);
+  for (int p = 0; p < s.points; ++p) {
+    const auto at = [&](const double* values, int c) { return values[c * s.points + p]; };
+    double old_stress[6], stress[6], increment[6], before[9], after[9], old_state[most], state[most];
+    for (int c = 0; c < 6; ++c) {
+      old_stress[c] = stress[c] = at(s.stress, c);
+      increment[c] = at(s.rate, c) * s.dt[p];
     }
-  }
-  for (int c = 0; c < 6; ++c) {
-    for (int p = 0; p < n; ++p) increment[c * n + p] = s.rate[c * n + p] * s.dt[p];
-  }
-  std::copy_n(s.stress, 6 * n, old_stress);
-  std::copy_n(s.state, law.states * n, old_state);
-  for (int p = 0; p < n; ++p) {
-    density[p] = law.density / s.J[p];
-    intern[p] = (s.stored[p] + s.dissipated[p]) / law.density, inelastic[p] = s.dissipated[p] / law.density;
-    new_intern[p] = intern[p], new_inelastic[p] = inelastic[p];
-  }
-  double stretch_before[6 * most_points], stretch[6 * most_points];
-  std::copy_n(s.old_stretch, 6 * n, stretch_before);
-  std::copy_n(s.stretch, 6 * n, stretch);
-  int nblock = n, ndir = 3, nshr = 3, nstatev = law.states, nfieldv = 0, nprops = static_cast<int>(props.size());
-  int lanneal = 0;
-  double time = s.time[0] + s.dt[0], dt = s.dt[0];
-  reinterpret_cast<Vumat>(law.function.address)(
-      &nblock, &ndir, &nshr, &nstatev, &nfieldv, &nprops, &lanneal, &time, &time, &dt, cmname.data(), none, none,
-      props.data(), density, increment, none, none, stretch_before, before, none, old_stress, old_state, intern,
-      inelastic, none, stretch, after, none, s.stress, s.state, new_intern, new_inelastic, name_length);
-  for (int p = 0; p < n; ++p) {
-    s.dissipated[p] = law.density * new_inelastic[p];
-    s.stored[p] = law.density * (new_intern[p] - new_inelastic[p]);
+    for (int k = 0; k < 9; ++k) before[k] = at(s.old_stretch, full[k]), after[k] = at(s.stretch, full[k]);
+    for (int c = 0; c < fixed.copied; ++c) old_state[c] = state[c] = at(s.state, c);
+    double density = law.density / s.J[p], inelastic = s.dissipated[p] / law.density;
+    double intern = s.stored[p] / law.density + inelastic, new_intern = intern, new_inelastic = inelastic;
+    double time = s.time[p] + s.dt[p], dt = s.dt[p], none[9] = {};
+    double stretch_before[6], stretch[6];  // beside deformation gradients, which are stretches, too
+    std::copy_n(before, 6, stretch_before);
+    std::copy_n(after, 6, stretch);
+    int nblock = 1, nfieldv = 0, lanneal = 0;
+    reinterpret_cast<Vumat>(law.function.address)(
+        &nblock, &fixed.ndir, &fixed.nshr, &fixed.nstatv, &nfieldv, &fixed.nprops, &lanneal, &time, &time, &dt,
+        fixed.cmname.data(), none, none, fixed.props, &density, increment, none, none, stretch_before, before, none,
+        old_stress, old_state, &intern, &inelastic, none, stretch, after, none, stress, state, &new_intern,
+        &new_inelastic, name_length);
+    for (int c = 0; c < 6; ++c) s.stress[c * s.points + p] = stress[c];
+    for (int c = 0; c < fixed.copied; ++c) s.state[c * s.points + p] = state[c];
+    s.dissipated[p] = law.density * new_inelastic;
+    s.stored[p] = law.density * (new_intern - new_inelastic);
   }
 }
 

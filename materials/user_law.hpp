@@ -1,6 +1,6 @@
 // A law from a shared object: strut's own interface (strut_law.h), UMAT or VUMAT of Abaqus (User Subroutines Reference
-// Guide). It is called as a function of one step in the unrotated frame, several points at a time where the interface
-// takes them. The elastic constants bound the critical time step, and scale stabilization and contact.
+// Guide). It is called as a function of one step in the unrotated frame, by strut's interface for several points at a
+// time. The elastic constants bound the critical time step, and scale stabilization and contact.
 #pragma once
 
 #include <array>
@@ -107,7 +107,8 @@ struct UserLaw {
   }
   double stored_energy(const State& state) const { return state.stored; }
   double dissipation(const State& state) const { return state.dissipated; }
-  // The flow of metals keeps the volume; libraries that flow otherwise and are used in quadratic cells share more.
+  // Where it has, integration points of quadratic cells share their change of volume: flow is taken for that of metals,
+  // which keeps the volume.
   bool has_flowed(const State& state) const { return tells_energy && state.dissipated > 0; }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }

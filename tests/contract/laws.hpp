@@ -47,7 +47,7 @@ inline constexpr double departs_from_hooke<materials::ShockJ2> = 5e-4;  // (n + 
 template <>
 inline constexpr double departs_from_hooke<materials::Hyperelastic> = 5e-4;  // J of W = ½ K (J − 1)², twice the strain
 
-// What a step of 1e-8 s below yield may dissipate, as a part of its energy: nothing, but where the law relaxes.
+// The part of its energy that a step of 1e-8 s below yield may dissipate: none, unless the law relaxes.
 template <class L>
 inline constexpr double relaxes_by = 0;
 template <>

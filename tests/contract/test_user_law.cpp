@@ -64,11 +64,12 @@ TEST(UserLibrary, IsTheBuiltInLawByEachInterface) {
   }
 }
 
-// Lanes are the points one by one, and a lane whose J is not positive leaves the others alone.
+// Lanes are the points one by one, with steps of their own, and a lane whose J is not positive leaves the others alone.
 TEST(UserLibrary, TakesPointsSideBySide) {
   constexpr int lanes = small::lane_count;
   for (const auto& [function, interface] : interfaces) {
-    const UserLaw law = law_of(function, interface);
+    UserLaw law = law_of(function, interface);
+    law.states = 2;
     std::mt19937 random(8);
     SymmetricOf<RawLanes> stress{};
     UserLaw::StateOf<RawLanes> state{};
@@ -78,6 +79,7 @@ TEST(UserLibrary, TakesPointsSideBySide) {
       StepOf<RawLanes> together{};
       for (int l = 0; l < lanes; ++l) {
         PointStep step = random_step(random);
+        step.dt *= 1 << l, step.rate /= 1 << l;
         if (l == 1) step.J = -1;
         together.dt[l] = step.dt, together.J[l] = step.J;
         for (int c = 0; c < 6; ++c) together.rate[c][l] = step.rate[c], together.stretch[c][l] = step.stretch[c];
@@ -92,6 +94,7 @@ TEST(UserLibrary, TakesPointsSideBySide) {
       if (l == 1) continue;
       for (int c = 0; c < 6; ++c) EXPECT_EQ(stress[c][l], stresses[l][c]) << function << " " << l;
       EXPECT_EQ(state.user[0][l], states[l].user[0]) << function << " " << l;
+      EXPECT_NEAR(state.user[1][l], 20e-7 * (1 << l), 1e-19 * (1 << l)) << function << " " << l;  // the sum of steps, s
     }
   }
 }
@@ -131,6 +134,8 @@ TEST(UserLibrary, IsTriedAtTheStart) {
     const std::string problem = tried(law_of(function)).problem;
     EXPECT_NE(problem.find(words), std::string::npos) << function << ": " << problem;
   }
+  const std::string beyond = tried(law_of("umat_beyond_its_states", LibraryInterface::umat)).problem;
+  EXPECT_NE(beyond.find("changes state variable 2 of 1"), std::string::npos) << beyond;
   const std::string warning = tried(law_of("in_megapascals")).warning;
   EXPECT_NE(warning.find("is softer, 1e+05 Pa, than its elastic constants say"), std::string::npos) << warning;
 }

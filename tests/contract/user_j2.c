@@ -1,5 +1,6 @@
 /* J2 with linear hardening for tests of user libraries, by all three interfaces: the radial return in closed form. The
- * constants are K, G, the yield stress and the hardening modulus, Pa; the state is the equivalent plastic strain. */
+ * constants are K, G, the yield stress and the hardening modulus, Pa; the state is the equivalent plastic strain, and
+ * where there are two state variables the sum of the steps, s. */
 #include <math.h>
 #include <stddef.h>
 
@@ -47,6 +48,7 @@ void strut_law(const struct strut_step* step) {
     }
     step->state[p] += step_of(step->constants, increment, old, step->state[p], stress, &work);
     for (c = 0; c < 6; ++c) step->stress[c * n + p] = stress[c];
+    if (step->state_count > 1) step->state[n + p] += step->dt[p];
     step->stored[p] = step->J[p] * elastic_energy(step->constants, stress);
     step->dissipated[p] += step->J[p] * work;
   }
@@ -63,6 +65,7 @@ void umat_(double* stress, double* statev, double* ddsdde, double* sse, double* 
   int c;
   for (c = 0; c < 6; ++c) increment[c] = (c < 3 ? 1 : 0.5) * dstran[c], old[c] = stress[c];
   statev[0] += step_of(props, increment, old, statev[0], stress, &work);
+  if (*nstatv > 1) statev[1] += *dtime;
   *sse = elastic_energy(props, stress);
   *spd += work;
 }
@@ -79,6 +82,7 @@ void vumat_(int* nblock, int* ndir, int* nshr, int* nstatev, int* nfieldv, int* 
     double increment[6], old[6], stress[6], work;
     for (c = 0; c < 6; ++c) increment[c] = strain_inc[c * n + p], old[c] = stress_old[c * n + p];
     state_new[p] = state_old[p] + step_of(props, increment, old, state_old[p], stress, &work);
+    if (*nstatev > 1) state_new[n + p] = state_old[n + p] + *dt;
     for (c = 0; c < 6; ++c) stress_new[c * n + p] = stress[c];
     inelastic_new[p] = inelastic_old[p] + work / density[p];
     intern_new[p] = inelastic_new[p] + elastic_energy(props, stress) / density[p];
@@ -94,6 +98,7 @@ void beyond_its_states(const struct strut_step* step) {
   int k;
   for (k = 0; k < (step->state_count + 1) * step->points; ++k) step->state[k] = 1;
 }
+void umat_beyond_its_states(double* stress, double* statev) { statev[1] = stress[0] + 1; }
 void in_megapascals(const struct strut_step* step) {
   int k;
   for (k = 0; k < 3 * step->points; ++k) step->stress[k] += 1e5 * step->rate[k] * step->dt[k % step->points];

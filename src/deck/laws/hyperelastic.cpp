@@ -1,7 +1,6 @@
 #include "deck/laws/hyperelastic.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "deck/laws/constants.hpp"
 #include "deck/numbers.hpp"

@@ -24,16 +24,9 @@ const IntegerKey states({.name = "State Variables",
                          .fallback = "0",
                          .meaning = "Their number, STATEV; all are 0 at the start. Output: User_State_1 and so on."});
 
-std::string usual_name(LibraryInterface interface) {
-  switch (interface) {
-    case LibraryInterface::strut:
-      return "strut_law";
-    case LibraryInterface::umat:
-      return "umat_";
-    case LibraryInterface::vumat:
-      return "vumat_";
-  }
-  return "";
+const char* usual_name(LibraryInterface interface) {
+  if (interface == LibraryInterface::umat) return "umat_";
+  return interface == LibraryInterface::vumat ? "vumat_" : "strut_law";
 }
 
 }  // namespace
