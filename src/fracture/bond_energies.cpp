@@ -14,7 +14,7 @@ namespace {
 double sum_of_lengths(const Body& body, int i) {
   double sum = 0;
   bonds::with_influence(body.influence, [&](auto weight) {
-    bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight,
+    bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight,
                 [&](int, double w, const auto& xi, double) { sum += w * std::sqrt(bonds::dot(xi, xi)); });
   });
   return sum;

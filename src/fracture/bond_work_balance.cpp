@@ -110,13 +110,13 @@ std::array<BondWorkBalance, Cluster::width> balances_of(const MaterialBlock& blo
   const Sums sums = block.is_ordinary()    ? sums_of_ordinary(cluster, end)
                     : block.is_quadratic() ? sums_of_quadratic(cluster, end)
                                            : sums_of_correspondence(cluster, end);
-  std::array<BondWorkBalance, Cluster::width> accounts;
+  std::array<BondWorkBalance, Cluster::width> balances;
   for (std::size_t l = 0; l < cluster.points.size(); ++l) {
     const double volume = end.body.domain.volume(cluster.points[l]);
     const double energy = energy_of(end.body, block, first + static_cast<int>(l), sums.squares[l]);
-    accounts[l] = {volume * energy, volume * sums.work[l]};
+    balances[l] = {volume * energy, volume * sums.work[l]};
   }
-  return accounts;
+  return balances;
 }
 
 }  // namespace strut

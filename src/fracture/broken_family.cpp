@@ -28,7 +28,7 @@ bool refit_shape(Body& body, MaterialBlock& block, int k, double most) {
   const bool holds = trace(inverse) > 0 && body.domain.volume(i) * trace(inverse) <= most;
   body.shape_inverse->set(i, holds ? inverse : Symmetric(Symmetric::Zero()));
   bonds::with_influence(body.influence, [&](auto weight) {
-    const bonds::OfPoint family{body.domain.families, i};
+    const bonds::OfPoint family{{i}, body.domain.families};
     body.first_moment->set(i, bonds::first_moment(family, body.domain.sites.data(), weight));
   });
   return holds;
@@ -38,7 +38,7 @@ bool refit_shape(Body& body, MaterialBlock& block, int k, double most) {
 Tensor gradient_at_start(const Body& body, int i, const StepEnd& start) {
   Tensor N = Tensor::Zero();
   bonds::with_influence(body.influence, [&](auto weight) {
-    bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight,
+    bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight,
                 [&](int j, double w, const auto& xi, double) {
                   N += w * (start.place(j) - start.place(i)) * Vector(xi.c[0], xi.c[1], xi.c[2]).transpose();
                 });

@@ -295,7 +295,7 @@ void Fracture::soften_springs(Body& body, Part part) {
       double& springs = body.points[i].stabilization;
       if (!(left < springs)) continue;
       bonds::with_influence(body.influence, [&](auto weight) {
-        const bonds::OfPoint family{body.domain.families, i};
+        const bonds::OfPoint family{{i}, body.domain.families};
         const double square = bonds::squared_residual(family, body.domain.sites.data(), body.points.data(), weight);
         body.fracture_energy[i] += 0.5 * (springs - left) * square * body.domain.volume(i);
       });

@@ -9,17 +9,9 @@ namespace {
 using Numbers = bonds::Vector3<double>;
 
 // The far ends of one point, as a family for the sums over bonds.
-struct OfFarEnds {
-  using Scalar = double;
-  int i;
+struct OfFarEnds : bonds::NearPoint {
   std::span<const int> far;
 
-  template <int count, class Of>
-  std::array<double, count> own(Of of) const {
-    std::array<double, count> numbers;
-    std::copy_n(of(i), count, numbers.begin());
-    return numbers;
-  }
   template <class Visit>
   void for_each(const Visit& visit) const {
     for (const int j : far) visit(j, 1.0);
@@ -47,7 +39,7 @@ BondWorkBalance SpringWorkBalance::of(int i, std::span<const int> family) const 
     if (!far_lost) sums.work += 0.5 * t.dot(moved - (bonds::tensor_of(finish[j]) - bonds::tensor_of(start[j])) * xi);
   };
   bonds::with_influence(body.influence, [&](auto omega) {
-    bonds::over(OfFarEnds{i, family}, body.domain.sites.data(), omega,
+    bonds::over(OfFarEnds{{i}, family}, body.domain.sites.data(), omega,
                 [&](int j, double weight, const Numbers& xi, double) {
                   for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) {
                     add.template operator()<S>(kind, j, weight, Vector(xi.c[0], xi.c[1], xi.c[2]));

@@ -98,6 +98,8 @@ struct Body : PointFields {
   std::vector<std::shared_ptr<LatticeSums>> lattice_sums;
 
   int owned() const { return domain.owned; }
+  // True if the point takes part in a substep of this level.
+  bool is_due(int i, int level) const { return time_levels.empty() || time_levels[i] >= level; }
   // The point's own step as a fraction of the step of a level.
   double share(int i, int level = 0) const { return time_levels.empty() ? 1 : power_of_two(level - time_levels[i]); }
   const MaterialBlock& block_of(int i) const { return blocks[domain.cloud.blocks[i]]; }

@@ -61,7 +61,7 @@ struct ResidualSum {
     }
     small::Lanes energies = small::Lanes::Zero();
     for (int l = 0; l < group.count; ++l) {
-      const bonds::OfPoint family{body.domain.families, group.i[l]};
+      const bonds::OfPoint family{{group.i[l]}, body.domain.families};
       energies[l] = bonds::residual_energy<S>(kind, family, u.sites, gradients, weight);
     }
     return energies;

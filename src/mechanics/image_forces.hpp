@@ -1,4 +1,4 @@
-// Inside mechanics: the force of some images on a point.
+// Inside mechanics: the forces of images on points.
 #pragma once
 
 #include "mechanics/force_sum.hpp"
@@ -8,16 +8,10 @@ namespace strut {
 
 // The images in the family of a point that a predicate selects.
 template <class Picks>
-struct OfImages {
-  using Scalar = double;
+struct OfImages : bonds::NearPoint {
   const Families& families;
-  int i;
   const Picks& picks;
 
-  template <int count, class Of>
-  std::array<double, count> own(Of of) const {
-    return bonds::OfPoint{families, i}.own<count>(of);
-  }
   template <class Visit>
   void for_each(Visit&& visit) const {
     families.for_each(i, [&](int j) {
@@ -69,6 +63,34 @@ Vector force_of(const Body& body, const Family& family, bool own, Weight weight)
     }
   }
   return force;
+}
+
+// The owned points that `counts` selects and that are not in rigid motion: all, or those that moved in a substep.
+std::vector<int> moving_points(const Body& body, const std::vector<int>* moved, const auto& counts) {
+  std::vector<int> points;
+  const auto look_at = [&](int i) {
+    if (counts(i) && !body.block_of(i).in_rigid_motion) points.push_back(i);
+  };
+  if (moved) {
+    std::ranges::for_each(*moved, look_at);
+  } else {
+    for (int i = 0; i < body.owned(); ++i) look_at(i);
+  }
+  return points;
+}
+
+// The force of the images that `picks` selects on some points, N. Only points that are due at `level` act.
+template <class Picks>
+Vector image_force(const Body& body, const std::vector<int>& points, int level, const Picks& picks) {
+  const auto acts = [&](int j) { return picks(j) && body.is_due(j, level); };
+  Vector sum = Vector::Zero();
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for (const int i : points) {
+      const OfImages<decltype(acts)> family{{i}, body.domain.families, acts};
+      sum += body.domain.volume(i) * force_of(body, family, body.is_due(i, level), weight);
+    }
+  });
+  return sum;
 }
 
 }  // namespace strut

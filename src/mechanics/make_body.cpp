@@ -122,7 +122,7 @@ void set_shapes(Body& body, MaterialBlock& block, const LaneGroups& groups, Fami
       }
       if (!group.cluster) return;
       for (int l = 0; l < group.count; ++l) {
-        const bonds::OfPoint family{body.domain.families, group.i[l]};
+        const bonds::OfPoint family{{group.i[l]}, body.domain.families};
         sums.first_moments[group.i[l]] = bonds::first_moment(family, body.domain.sites.data(), weight);
       }
     });

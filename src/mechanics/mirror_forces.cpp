@@ -28,7 +28,7 @@ class MirrorForces {
   // normals. If two planes are parallel, the images behind each are summed separately.
   void add(int body, std::vector<Vector>& forces) const {
     Vector rest = Vector::Zero();
-    over_points(body, [&](int i) { rest += body_.domain.volume(i) * body_.force_density[i]; });
+    for (const int i : points_of(body)) rest += body_.domain.volume(i) * body_.force_density[i];
     std::vector<std::size_t> others;
     for (std::size_t m = 0; m < mirrors_.size(); ++m) {
       if (mirrors_[m].body != body) continue;
@@ -61,14 +61,8 @@ class MirrorForces {
   // The force of the images behind one of the planes, along its normal, N.
   Vector across(std::size_t m) const {
     const std::vector<char> behind = images_behind(mirrors_[m]);
-    const auto picks = [&](int j) { return behind[j] && is_due(j); };
-    Vector sum = Vector::Zero();
-    bonds::with_influence(body_.influence, [&](auto weight) {
-      over_points(mirrors_[m].body, [&](int i) {
-        const OfImages<decltype(picks)> family{body_.domain.families, i, picks};
-        sum += body_.domain.volume(i) * force_of(body_, family, is_due(i), weight);
-      });
-    });
+    const auto picks = [&](int j) { return behind[j]; };
+    const Vector sum = image_force(body_, points_of(mirrors_[m].body), level_, picks);
     const Vector& normal = mirrors_[m].normal;
     return normal.dot(sum) * normal;
   }
@@ -84,19 +78,9 @@ class MirrorForces {
     return behind;
   }
 
-  bool is_due(int i) const { return body_.time_levels.empty() || body_.time_levels[i] >= level_; }
-
-  template <class Visit>
-  void over_points(int body, const Visit& visit) const {
-    const auto look_at = [&](int i) {
-      if (body_.domain.blocks[body_.domain.cloud.blocks[i]].body == body && !body_.block_of(i).in_rigid_motion)
-        visit(i);
-    };
-    if (moved_) {
-      std::for_each(moved_->begin(), moved_->end(), look_at);
-    } else {
-      for (int i = 0; i < body_.owned(); ++i) look_at(i);
-    }
+  std::vector<int> points_of(int body) const {
+    return moving_points(body_, moved_,
+                         [&](int i) { return body_.domain.blocks[body_.domain.cloud.blocks[i]].body == body; });
   }
 
   const Body& body_;

@@ -48,7 +48,7 @@ struct Reflection {
   }
   Vector operator()(const Vector& X) const { return turn * X + shift; }
   Reflection after(const Reflection& first) const { return {turn * first.turn, turn * first.shift + shift}; }
-  // Of present positions; `stretch`: of the periods along x, y, z.
+  // The same map for present positions, where the periods along x, y, z are stretched.
   Reflection stretched(const Vector& stretch) const {
     return {turn, shift + period.cwiseProduct(stretch - Vector::Ones()), period};
   }
@@ -62,7 +62,7 @@ class Images {
   // mirrors of a body make too many images, because they do not meet at 180°/n.
   Images(const std::vector<Mirror>& mirrors, const std::vector<Eigen::AlignedBox3d>& boxes, double reach);
 
-  // Those of all bodies by these periods, as far as they may be within `reach` (m).
+  // The images of all bodies by these periods, as far as they may be within `reach` (m).
   Images(const std::vector<Period>& periods, double reach);
 
   // Numbers of the images of a body, ascending, without the body itself.

@@ -9,6 +9,7 @@
 #include "mechanics/make_body.hpp"
 #include "mechanics/mechanics.hpp"
 #include "topology/partition.hpp"
+#include "add_point.hpp"
 
 namespace strut {
 
@@ -40,13 +41,9 @@ inline PointCloud lattice_cloud(const LatticeSpec& spec, const Communicator& wor
       for (int i = 0; i < spec.cells[0]; ++i) {
         const double dx = shift(engine), dy = shift(engine), dz = shift(engine);
         if (spec.is_filled && !spec.is_filled({i, j, k})) continue;
-        cloud.ids.push_back(static_cast<std::int64_t>(cloud.ids.size()));
-        cloud.element_ids.push_back(cloud.ids.back() + 1);
-        cloud.positions.push_back(spec.spacing * Vector(i + 0.5 + dx, j + 0.5 + dy, k + 0.5 + dz));
-        cloud.volumes.push_back(std::pow(spec.spacing, 3));
-        cloud.spacings.push_back(spec.spacing);
-        cloud.blocks.push_back(0);
-        cloud.sets.push_back(0);
+        add_point(cloud, static_cast<std::int64_t>(cloud.size()),
+                  spec.spacing * Vector(i + 0.5 + dx, j + 0.5 + dy, k + 0.5 + dz), std::pow(spec.spacing, 3),
+                  spec.spacing);
       }
     }
   }

@@ -148,7 +148,7 @@ void MultiTimeStepping::set_moment_errors(const Body& body, Level& level) {
       if (body.blocks[b].lattice < 0) continue;
       for (const int k : level.stressed[b].places) {
         const int i = body.blocks[b].points[k];
-        const bonds::OfPoint family{body.domain.families, i};
+        const bonds::OfPoint family{{i}, body.domain.families};
         const Vector moment = bonds::first_moment(family, body.domain.sites.data(), weight);
         level.moment_errors.emplace_back(i, moment - body.first_moment[i]);
       }

@@ -176,7 +176,7 @@ Ledger QuasiStatic::ledger() {
   now.tools = by_tools_;
   const double in_contact = body.domain.communicator.sum(contact().energy());
   now.contact = by_friction_ - in_contact;
-  // What contact stores is an energy of the scene, and all of it where every point is prescribed.
+  // The energy that contact stores counts with the others: where every point is prescribed it is all there is.
   now.balance(now.elastic + now.dissipated + now.stabilization + in_contact, now.external + now.tools + by_friction_,
               largest_energy_);
   return now;

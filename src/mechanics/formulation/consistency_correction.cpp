@@ -122,7 +122,7 @@ void ConsistencyCorrection::set_missing() {
   bonds::with_influence(body_.influence, [&](auto weight) {
     for_each_point(0, count(), [&, weight](int p) {
       const int i = points_[p];
-      const bonds::OfPoint family{body_.domain.families, i};
+      const bonds::OfPoint family{{i}, body_.domain.families};
       const auto far =
           bonds::quadratic_far_force(family, body_.domain.sites.data(), fits_.multipliers(), states.data(), weight);
       const Vector force = Vector(far.c[0], far.c[1], far.c[2]) + bonds::quadratic_own_force(states[i], fits_[i]);

@@ -68,10 +68,9 @@ auto with_influence(Influence influence, Work&& work) {
 
 // ---- Families ------------------------------------------------------------------------------------------------------
 
-// The family of one point.
-struct OfPoint {
+// The near end of the bonds of one point.
+struct NearPoint {
   using Scalar = double;
-  const Families& families;
   int i;
 
   // The `count` numbers of point i that start at of(i).
@@ -81,6 +80,12 @@ struct OfPoint {
     std::copy_n(of(i), count, numbers.begin());
     return numbers;
   }
+};
+
+// The family of one point.
+struct OfPoint : NearPoint {
+  const Families& families;
+
   template <class Visit>
   void for_each(Visit&& visit) const {  // visit(j, 1)
     families.for_each(i, [&](int j) { visit(j, 1.0); });

@@ -9,7 +9,7 @@ namespace strut {
 template <class Visit>
 void over_family(const Body& body, int i, const Visit& visit) {
   bonds::with_influence(body.influence, [&](auto weight) {
-    bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight,
+    bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight,
                 [&](int j, double w, const auto& xi, double) { visit(j, w, Vector(xi.c[0], xi.c[1], xi.c[2])); });
   });
 }

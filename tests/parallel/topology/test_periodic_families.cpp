@@ -6,6 +6,7 @@
 #include "base/parallel/communicator.hpp"
 #include "topology/domain.hpp"
 #include "topology/partition.hpp"
+#include "verification/add_point.hpp"
 
 namespace strut {
 namespace {
@@ -20,9 +21,7 @@ PointCloud random_cloud(int count, const Communicator& world) {
   for (int id = 0; id < count; ++id) {
     const double x = place(random), y = place(random), z = place(random);
     if (world.rank() > 0) continue;
-    cloud.ids.push_back(id), cloud.element_ids.push_back(id + 1);
-    cloud.positions.push_back(size.cwiseProduct(Vector(x, y, z)));
-    cloud.volumes.push_back(1), cloud.spacings.push_back(0.1), cloud.blocks.push_back(0), cloud.sets.push_back(0);
+    add_point(cloud, id, size.cwiseProduct(Vector(x, y, z)), 1, 0.1);
   }
   return cloud;
 }
@@ -103,9 +102,7 @@ TEST(Periods, BondsRunThroughTheMaterialAtTheSides) {
   for (int n = 0; n < 12; ++n) {
     const int x = n % 4, z = n / 4;
     if (world.rank() > 0 || !solid(x, z)) continue;
-    cloud.ids.push_back(n), cloud.element_ids.push_back(n + 1);
-    cloud.positions.emplace_back(x + 0.5, 0.5, z + 0.5);
-    cloud.volumes.push_back(1), cloud.spacings.push_back(1), cloud.blocks.push_back(0), cloud.sets.push_back(0);
+    add_point(cloud, n, {x + 0.5, 0.5, z + 0.5}, 1, 1);
     cloud.shapes.emplace_back();
     std::vector<std::int64_t>& nodes = cloud.shared_nodes.emplace_back();
     for (int corner = 0; corner < 8; ++corner) {
@@ -134,9 +131,7 @@ TEST(Periods, APointMayBeItsOwnNeighbor) {
   PointCloud cloud;
   cloud.block_names = {"block"};
   for (int z = 0; world.rank() == 0 && z < 3; ++z) {
-    cloud.ids.push_back(z), cloud.element_ids.push_back(z + 1);
-    cloud.positions.emplace_back(0.5, 0.5, z + 0.5);
-    cloud.volumes.push_back(1), cloud.spacings.push_back(1), cloud.blocks.push_back(0), cloud.sets.push_back(0);
+    add_point(cloud, z, {0.5, 0.5, z + 0.5}, 1, 1);
   }
   const std::vector<Period> periods{{0, 1, 0, Function(1)}, {1, 1, 1, Function(1)}};
   const Domain domain = make_domain(partitioned(std::move(cloud), world), {BlockBonds(1.5)}, world, {}, {}, periods);

@@ -188,7 +188,7 @@ TEST(ClusterLists, LanesAreTheSumsOfTheirPoints) {
   for (int b = 0; b < lists.count(); ++b) {
     const auto [forces, residuals] = sums_of(bonds::OfCluster{lists[b]});
     for (std::size_t l = 0; l < lists[b].points.size(); ++l, ++seen) {
-      const auto [force, residual] = sums_of(bonds::OfPoint{body.domain.families, lists[b].points[l]});
+      const auto [force, residual] = sums_of(bonds::OfPoint{{lists[b].points[l]}, body.domain.families});
       check(forces, static_cast<int>(l), force);
       check(residuals, static_cast<int>(l), residual);
     }

@@ -30,13 +30,7 @@ Body box(const Case& c, bool whole, const Communicator& world) {
   for (int cell = 0; world.rank() == 0 && cell < 4 * half * half * height; ++cell) {
     const Vector at(cell % (2 * half) - half, cell / (2 * half) % (2 * half) - half, cell / (4 * half * half));
     if (!whole && (at[0] < 0 || at[1] < 0)) continue;
-    cloud.ids.push_back(cell);
-    cloud.element_ids.push_back(cell + 1);
-    cloud.positions.push_back(off() + at + Vector::Constant(0.5));
-    cloud.volumes.push_back(1 + 0.1 * at[2] / height);
-    cloud.spacings.push_back(1);
-    cloud.blocks.push_back(0);
-    cloud.sets.push_back(0);
+    add_point(cloud, cell, off() + at + Vector::Constant(0.5), 1 + 0.1 * at[2] / height, 1);
   }
   BlockBonds bonds(c.horizon);
   bonds.families = c.families;

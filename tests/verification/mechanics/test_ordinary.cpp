@@ -74,7 +74,7 @@ Quadrature quadrature(const Body& body, int i, Weight weight) {
     sum.diagonals += 15 * w * 0.25 * std::pow(x2 - y2, 2) / r2;
     m += w * r2;
   };
-  bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight, add);
+  bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight, add);
   return {sum.axes / m, sum.diagonals / m};
 }
 
@@ -342,7 +342,7 @@ Vector closed_form(const LatticeSpec& spec, const Body& body, int i, const Vecto
     sum += w * (1 - std::cos(k.dot(xi))) * xi * xi.dot(d) / xi.squaredNorm();
     m += w * xi.squaredNorm();
   };
-  bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), bonds::LinearDecay{}, add);
+  bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), bonds::LinearDecay{}, add);
   const auto [K, mu] = moduli_of(spec);
   return (3 * (3 * K - 5 * mu) / (m * m) * g.dot(d) * g + 30 * mu / m * sum) / spec.material.density;
 }

@@ -32,13 +32,7 @@ Body box(const Case& c, bool whole, const Communicator& world) {
   for (int cell = 0; world.rank() == 0 && cell < across * across * height; ++cell) {
     const Vector at = Vector(cell % across, cell / across % across, cell / (across * across)) + Vector::Constant(0.5);
     if (!whole && !is_in_the_middle(at)) continue;
-    cloud.ids.push_back(cell);
-    cloud.element_ids.push_back(cell + 1);
-    cloud.positions.push_back(at);
-    cloud.volumes.push_back(1 + 0.1 * at[2] / height);
-    cloud.spacings.push_back(1);
-    cloud.blocks.push_back(0);
-    cloud.sets.push_back(0);
+    add_point(cloud, cell, at, 1 + 0.1 * at[2] / height, 1);
   }
   BlockBonds bonds(c.horizon);
   bonds.families = c.families;

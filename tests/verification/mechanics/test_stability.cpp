@@ -143,13 +143,9 @@ TEST(Stability, LimitOnGradedVolumes) {
   for (int k = 0; world.rank() == 0 && k < 10; ++k, low += width, width *= 1.1) {
     const int n = static_cast<int>(8 * h / width);
     for (int cell = 0; cell < n * n; ++cell) {
-      cloud.ids.push_back(static_cast<std::int64_t>(cloud.ids.size()));
-      cloud.element_ids.push_back(cloud.ids.back() + 1);
-      cloud.positions.emplace_back(8 * h / n * (cell % n + 0.5), 8 * h / n * (cell / n + 0.5), low + width / 2);
-      cloud.volumes.push_back(std::pow(8 * h / n, 2) * width);
-      cloud.spacings.push_back(std::cbrt(cloud.volumes.back()));
-      cloud.blocks.push_back(0);
-      cloud.sets.push_back(0);
+      const Vector at(8 * h / n * (cell % n + 0.5), 8 * h / n * (cell / n + 0.5), low + width / 2);
+      const double volume = std::pow(8 * h / n, 2) * width;
+      add_point(cloud, static_cast<std::int64_t>(cloud.size()), at, volume, std::cbrt(volume));
     }
   }
   expect_limit("volumes graded 1 : 13",

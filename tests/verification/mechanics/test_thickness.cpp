@@ -9,6 +9,7 @@
 
 #include "mechanics/thin_members.hpp"
 #include "topology/partition.hpp"
+#include "verification/add_point.hpp"
 
 namespace strut {
 namespace {
@@ -29,13 +30,7 @@ double thickness(const Cells& cells, PointsAt at = PointsAt::elements) {
   for (std::size_t k = 0; k < cells.size(); ++k) {
     largest = std::max(largest, cells[k].spacing);
     if (static_cast<int>(k) % world.size() != world.rank()) continue;
-    cloud.ids.push_back(static_cast<std::int64_t>(k));
-    cloud.element_ids.push_back(static_cast<std::int64_t>(k) + 1);
-    cloud.positions.push_back(cells[k].middle);
-    cloud.volumes.push_back(cells[k].volume);
-    cloud.spacings.push_back(cells[k].spacing);
-    cloud.blocks.push_back(0);
-    cloud.sets.push_back(0);
+    add_point(cloud, static_cast<std::int64_t>(k), cells[k].middle, cells[k].volume, cells[k].spacing);
   }
   return thicknesses(make_domain(partitioned(std::move(cloud), world), {{2 * largest, 0}}, world))[0];
 }
