@@ -13,13 +13,13 @@ endif()
 set_target_properties(${programs} ${modules} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
 install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 if(STRUT_PYTHON)
-  # That of Debian's Python 3, whatever its minor version; elsewhere it goes into PYTHONPATH, or where a user puts it.
+  # The folder of Debian's Python 3, whatever its minor version; elsewhere it goes into PYTHONPATH, or where a user puts it.
   set(STRUT_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "folder of Python's packages in the prefix")
   install(TARGETS strut_python LIBRARY DESTINATION ${STRUT_PYTHON_FOLDER}/strut)
   install(DIRECTORY tools/python/strut DESTINATION ${STRUT_PYTHON_FOLDER} FILES_MATCHING PATTERN "*.py")
 endif()
 
-# What the program says of itself, as a man page and for the shell's completion.
+# The program's --help as a man page, and as a script for the shell's completion.
 set(pages ${CMAKE_BINARY_DIR}/pages)
 add_custom_command(OUTPUT ${pages}/strut.1 ${pages}/strut
                    COMMAND ${CMAKE_COMMAND} -E make_directory ${pages}

@@ -24,7 +24,7 @@ as_is() { sed -e 's/\\/\\e/g' -e "s/^[.']/\\\\\\&&/" -e 's/-/\\-/g'; }
 
 options=$(printf '%s\n' "$help" | sed -n 's/^  \(--[a-z]*\).*/\1/p' | tr '\n' ' ')
 cat > "$bash" << END
-# What bash completes of strut: its options, and decks.
+# bash completes the options of strut, and decks.
 _strut() {
   local word=\${COMP_WORDS[COMP_CWORD]} before=\${COMP_WORDS[COMP_CWORD - 1]}
   case \$before in

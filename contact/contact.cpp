@@ -110,7 +110,7 @@ bool Contact::breaks_meet(const Kinematics& kinematics, const ContactPair& conta
   return false;
 }
 
-void Contact::look_where_due(const Kinematics& kinematics, double dt) {
+void Contact::check_where_due(const Kinematics& kinematics, double dt) {
   const int before = searches_;
   for (ContactPair& contact_pair : contact_pairs_) {
     if (contact_pair.check_due) check(kinematics, dt, contact_pair);
@@ -221,7 +221,7 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, const Sliding&
 
 void Contact::add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density) {
   if (!any()) return;
-  look_where_due(kinematics, dt);
+  check_where_due(kinematics, dt);
   add_forces(kinematics, dt, {kinematics.velocities, dt}, force_density);
 }
 
@@ -242,7 +242,7 @@ void Contact::foresee(const Kinematics& kinematics, double dt) {
 void Contact::add_trial_forces(const Kinematics& kinematics, std::span<const Vector> way,
                                std::vector<Vector>& force_density) {
   if (!any()) return;
-  look_where_due(kinematics, 0);
+  check_where_due(kinematics, 0);
   add_forces(kinematics, 0, {.of = way, .is_trial = true}, force_density);
 }
 

@@ -126,7 +126,7 @@ class Contact {
   static bool breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair);
   void check(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   // Collective.
-  void look_where_due(const Kinematics& kinematics, double dt);
+  void check_where_due(const Kinematics& kinematics, double dt);
   void add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding, std::vector<Vector>& force_density);
   static void add_normal_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair,
                                 std::vector<Vector>& force_density);

@@ -39,7 +39,7 @@ Site site(const Candidate& c) {
   return site;
 }
 
-// Those one period away, numbered as in the domain (Images::id).
+// The images of points one period away, with the ids that the domain gives them (Images::id).
 Images images_in_contact(const Domain& domain) { return domain.periods.empty() ? Images() : Images(domain.periods, 0); }
 
 // The box of the points of a block over all ranks.

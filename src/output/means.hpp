@@ -45,7 +45,7 @@ class Mean {
   }
   // Names of the columns: "Mean_X(foam)", or for layers "Mean_X(slices 1)", ….
   std::vector<std::string> columns() const;
-  std::string unit() const { return unit_of(number_.observable); }
+  std::string unit() const { return number_.observable.unit; }
   std::vector<double> values(const Body& body) const;  // collective
 
  private:

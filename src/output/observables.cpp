@@ -259,6 +259,4 @@ std::vector<Observable> observables(const Body& body) {
 
 std::vector<Observable> observables_of_all_laws() { return with_states(states_of_all_laws()); }
 
-std::string unit_of(const Observable& observable) { return observable.unit.empty() ? "1" : observable.unit; }
-
 }  // namespace strut

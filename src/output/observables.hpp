@@ -22,8 +22,6 @@ struct Observable {
   std::string unit = {};
 };
 
-std::string unit_of(const Observable& observable);  // "1" if it has none
-
 // All observables of a body: the fixed ones and the state variables of its laws (zero in blocks whose law has none).
 std::vector<Observable> observables(const Body& body);
 std::vector<Observable> observables(const std::vector<materials::AnyLaw>& laws);
@@ -63,7 +61,7 @@ class Extreme {
   Extreme(const std::vector<Observable>& all, const PointCloud& cloud, const std::string& name,
           const std::string& where);
   const std::string& name() const { return name_; }
-  std::string unit() const { return unit_of(number_.observable); }
+  std::string unit() const { return number_.observable.unit; }
   // Number of points of this rank in its group.
   std::int64_t points(const PointCloud& cloud) const { return group_.points(cloud); }
   double local(const Body& body) const;  // of this rank, negated for a minimum, so that ranks always take the maximum

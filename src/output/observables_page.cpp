@@ -48,7 +48,7 @@ std::string observables_page() {
   std::string text = introduction;
   for (const Observable& o : observables_of_all_laws()) {
     text += "| `" + o.name + "` | " + std::to_string(o.components) + " | " + (o.nodal ? "nodal" : "element") + " | " +
-            unit_of(o) + " | " + escaped(o.meaning) + " |\n";
+            o.unit + " | " + escaped(o.meaning) + " |\n";
   }
   return text;
 }

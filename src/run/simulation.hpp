@@ -29,7 +29,7 @@ struct Pause {
   double time = std::numeric_limits<double>::infinity();
 };
 
-// What the owner of a run has in memory rather than in files.
+// Input and output that a script in Python keeps in memory, in place of files.
 struct InMemory {
   const io::Mesh* mesh = nullptr;  // of a deck of Type Memory, on rank 0; for the set-up only
   HistoryRows* history = nullptr;  // gets the rows, if the deck has the section History

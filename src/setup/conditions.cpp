@@ -80,6 +80,10 @@ bool needs_inertia(const deck::Condition& condition) {
   return (tool && tool->free) || std::visit(impossible, condition.kind);
 }
 
+bool is_initial_displacement(const deck::Condition& condition) {
+  return std::holds_alternative<InitialDisplacement>(condition.kind);
+}
+
 // `place`: index of the condition in the deck.
 void add_condition(const deck::Condition& condition, int place, std::vector<int> points, const SharedPoints& shared,
                    double t, Scene& scene) {
@@ -143,7 +147,9 @@ void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& co
       problems.add(error.what());
     }
   }
-  scene.body.domain.halo.exchange_places(scene.body.domain.sites);  // Initial Displacement moved some
+  if (std::ranges::any_of(deck.conditions, is_initial_displacement)) {
+    scene.body.domain.halo.exchange_places(scene.body.domain.sites);
+  }
   raise_together(communicator, problems.text(deck.file.string()));
   take_off_what_is_beyond_ends(deck, scene, problems);
   raise_together(communicator, problems.text(deck.file.string()));

@@ -37,7 +37,7 @@ Holds holds_of(const deck::Condition& condition, int place) {
   return holds;
 }
 
-// Those of the conditions of type Initial, which set the state at the initial time.
+// The holds of a condition of the type Initial, which sets the state at the initial time.
 template <class Initial>
 Holds initial_holds_of(const deck::Condition& condition, int place) {
   Holds holds;

@@ -25,7 +25,7 @@ struct Jump {
   double time = 0, length = 0;  // s, and m or the unit of a load
 };
 
-// What remains of the change between `from` and `to` as they approach each other: nothing of a steep slope.
+// The jump between `from` and `to`, by halving the interval where it changes most: a steep slope leaves no jump.
 template <class OfTime>
 Jump jump_between(const OfTime& of_time, double from, double to) {
   for (int n = 0; n < halvings; ++n) {

@@ -13,7 +13,8 @@ namespace strut::mesh {
 // content of a file.
 io::Mesh mesh_of(const Body& body, std::string& summary);
 
-// That of all bodies. The sets of a single one, but for a file's, also have plain names: foot (zmin) and top (zmax).
+// The mesh of all bodies. The sets of a single one, but for a file's, also have plain names: foot (zmin) and top
+// (zmax).
 io::Mesh mesh_of(const std::vector<Body>& bodies, std::string& summary);
 
 // Moves nodes and the data of elements.

@@ -93,7 +93,7 @@ std::string axes_of(const Body& body) {
   return text;
 }
 
-// What else a recipe asked for.
+// The lines on sizes, stretch, periods and sections, where the recipe asks for them.
 std::string summary_of_more(const Body& body, const Skeleton& skeleton) {
   std::string text;
   if (body.sizes > 0 || body.relax > 0 || body.stretch != Vector::Ones() || is_periodic(body)) {

@@ -33,7 +33,7 @@ struct StrutShape {
 std::vector<Level> strut_levels(const std::vector<Edge>& edges, const StrutShape& shape, const VoxelGrid& grid,
                                 double most);
 
-// Of all voxels: of a field at their centers.
+// The levels of all voxels by a field: its values at their centers.
 std::vector<Level> field_levels(const std::function<double(const Vector&)>& field, const VoxelGrid& grid);
 
 }  // namespace strut::mesh

@@ -99,7 +99,7 @@ class Seeds {
     return true;
   }
 
-  // Of a site that a periodic box may repeat.
+  // The seed of a site; in a periodic box, which repeats, that of the site inside, moved.
   Vector seed_at(const Site& site) {
     if (!is_periodic()) return at(site);
     const Site inside = site - width_ * (site.cast<double>() / width_.cast<double>()).floor().cast<int>();

@@ -11,7 +11,7 @@ namespace strut::mesh {
 
 struct Edge {
   Vector a, b;  // its ends, m
-  // Of unit length, from the edge into the three films that meet there, across it; zero if unknown.
+  // Vectors of unit length across the edge, from it into the three films that meet there; zero if unknown.
   std::array<Vector, 3> films = {Vector::Zero(), Vector::Zero(), Vector::Zero()};
 };
 

@@ -1,5 +1,5 @@
-// What points stand for of a body: moments, surface, shared nodes, cells that are partly filled; and bonds that need
-// material.
+// The part of a body that a point stands for: moments, surface, shared nodes, cells that are partly filled; and bonds
+// that need material.
 #include <gtest/gtest.h>
 
 #include <cmath>
