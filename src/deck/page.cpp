@@ -1,6 +1,7 @@
 // The reference page of all keys, from the schema.
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <set>
 
 #include "base/errors.hpp"
@@ -13,11 +14,6 @@
 namespace strut::deck {
 
 namespace {
-
-std::string escaped(std::string text) {
-  for (std::size_t i = text.find('|'); i != std::string::npos; i = text.find('|', i + 2)) text.insert(i, 1, '\\');
-  return text;
-}
 
 std::string type_text(const Key& key) {
   switch (key.kind) {
@@ -53,7 +49,7 @@ std::string range_text(const Key& key) {
 
 std::string default_text(const Key& key) {
   if (key.required) return "required";
-  return key.fallback ? "`" + *key.fallback + "`" : "—";
+  return key.fallback ? "default `" + *key.fallback + "`" : "";
 }
 
 // "real > 0, m"; of a choice its choices.
@@ -103,25 +99,38 @@ std::vector<std::string> names_along_axes(const Key& key, const Keys& keys) {
   return names;
 }
 
-std::string row(const Key& key, const std::vector<std::string>& names) {
-  std::string text = "|";
-  for (const std::string& name : names) text += (name == names.front() ? " " : ", ") + quoted(name);
-  return text + " | " + value_text(key) + " | " + default_text(key) + " | " + escaped(key.meaning) + " |\n";
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (name == names.front() ? "" : ", ") + quoted(name);
+  return text;
 }
 
-std::string table(const Keys& keys) {
-  std::string rows;
+// "- `Horizon` (real > 0, m): …", indented.
+std::string row(const Key& key, const std::vector<std::string>& names, const std::string& indent) {
+  const std::string fallback = default_text(key);
+  return indent + "- " + listed(names) + " (" + value_text(key) + (fallback.empty() ? "" : "; " + fallback) +
+         "): " + key.meaning + "\n";
+}
+
+std::string rows(const Keys& keys, const std::string& indent = "") {
+  std::string text;
   std::set<std::string> done;
+  std::vector<std::string> ineffective;
   for (const Key& key : keys) {
     if (done.count(key.name)) continue;
     const std::vector<std::string> names = names_along_axes(key, keys);
     done.insert(names.begin(), names.end());
-    rows += row(key, names);
+    if (key.no_effect.empty())
+      text += row(key, names, indent);
+    else
+      ineffective.push_back(key.name);
   }
-  return rows.empty() ? "" : "\n| key | value | default | meaning |\n|---|---|---|---|\n" + rows;
+  if (!ineffective.empty())
+    text += indent + "- From Peridigm's decks, without effect (a run says why): " + listed(ineffective) + ".\n";
+  return text;
 }
 
-// Keys that several cases have in common; they have a table of their own if they are this many.
+// Keys that several cases have in common; they have a list of their own if they are this many.
 constexpr std::size_t least_shared = 4;
 struct SharedKeys {
   std::vector<std::string> cases;
@@ -159,72 +168,70 @@ Keys own_keys(const Section& one, const std::vector<SharedKeys>& shared) {
   return keys;
 }
 
-std::string section_text(const Section& section, const std::string& path);
+// The sections that stand on the page so far: body, path.
+using Written = std::map<std::string, std::string>;
 
-std::string cases_text(const Section& section, const std::string& path) {
+std::string section_text(const Section& section, const std::string& path, Written& written);
+
+std::string cases_text(const Section& section, const std::string& path, Written& written) {
   const std::vector<SharedKeys> shared = shared_keys(section.cases);
-  const std::string heading = "\n### " + path + ", " + section.selector + " = ";
+  const bool nested =
+      std::any_of(section.cases.begin(), section.cases.end(), [](const Section& one) { return !one.sections.empty(); });
+  const auto heading = [&](const std::string& names) {
+    const std::string equation = section.selector + " = " + names;
+    return nested ? "\n### " + equation + "\n\n" : "- " + equation + ": ";
+  };
+  const std::string indent = nested ? "" : "  ";
   std::string text;
   for (const Section& one : section.cases) {
-    text += heading + "\"" + one.name + "\"\n\n" + one.meaning + "\n" + table(own_keys(one, shared));
-    for (const Section& inner : one.sections) text += section_text(inner, path_to(path, inner.name));
+    const std::string keys = rows(own_keys(one, shared), indent);
+    text += heading("\"" + one.name + "\"") + one.meaning + "\n" + (nested && !keys.empty() ? "\n" : "") + keys;
+    for (const Section& inner : one.sections) text += section_text(inner, path_to(path, inner.name), written);
   }
   for (const SharedKeys& group : shared) {
-    text += heading;
-    for (const std::string& name : group.cases) text += (name == group.cases.front() ? "\"" : ", \"") + name + "\"";
-    text += "\n" + table(group.keys);
+    std::string names;
+    for (const std::string& name : group.cases) names += (names.empty() ? "\"" : ", \"") + name + "\"";
+    text += heading(names) + (nested ? "" : "\n") + rows(group.keys, indent);
   }
   return text;
 }
 
-std::string section_text(const Section& section, const std::string& path) {
-  std::string text;
-  if (!path.empty()) text += "\n## " + path + (section.required ? " (required)" : "") + "\n";
-  if (!section.meaning.empty()) text += "\n" + section.meaning + "\n";
+std::string section_text(const Section& section, const std::string& path, Written& written) {
+  std::string heading, inner_text;
+  if (!path.empty()) heading = "\n## " + path + (section.required ? " (required)" : "") + "\n";
   Keys keys = section.keys;
   if (section.any_key) keys.push_back(*section.any_key);
-  text += table(keys) + cases_text(section, path);
-  for (const Section& inner : section.sections) text += section_text(inner, path_to(path, inner.name));
-  return text;
+  std::string text = (section.meaning.empty() ? "" : "\n" + section.meaning + "\n") + "\n" + rows(keys);
+  text += cases_text(section, path, written);
+  for (const Section& inner : section.sections) inner_text += section_text(inner, path_to(path, inner.name), written);
+  const auto [same, is_new] = written.emplace(text, path);
+  return heading + (is_new ? text : "\nThe keys of " + same->second + ".\n") + inner_text;
 }
 
 const char* const introduction = R"(# Keys of a deck
 
 Generated from the schema in `src/deck`; do not edit by hand. SI units throughout.
 
-A deck is an XML file of nested sections, `<ParameterList name="…">`, and keys, `<Parameter name="…" type="…" value="…"/>`,
-or the same in YAML. `Blocks > (any name) > Horizon` is the key `Horizon` in a section of any name in the section `Blocks`.
-Unknown keys and sections, and values outside their range, are errors; a deck's errors are reported together.
+A deck is an XML file of nested sections, `<ParameterList name="…">`, and keys, `<Parameter name="…" type="…" value="…"/>`, or the same in YAML. `Blocks > (any name) > Horizon` is the key `Horizon` in a section of any name in the section `Blocks`. Unknown keys and sections, and values outside their range, are errors, reported together. In brackets: the value, its unit, and `required` or the default.
 
-| value | written in the deck as |
-|---|---|
-| bool | type `bool`: `true` or `false` |
-| integer | type `int`, or `string` with an integer |
-| real | type `double` or `int`, or `string` with a number; finite |
-| reals | type `string` (`0 0.1 0.5`) or `Array(double)` (`{0, 0.1, 0.5}`) |
-| 3 reals | the same, three of them |
-| text | type `string` |
-| `A`, `B` | type `string`: one of the choices, letter by letter |
-| axes | type `string`: one or several of `x`, `y`, `z`, e.g. `z`, `xy`, `xyz` |
-| names | type `string`, separated by blanks |
-| expression | a number, or type `string`: C-like, in x, y, z, t, e.g. `-50`, `1e-3*t`, `sin(x)` |
+- bool: type `bool`, `true` or `false`.
+- integer: type `int`, or `string` with an integer.
+- real: type `double` or `int`, or `string` with a number; finite.
+- reals: type `string` (`0 0.1 0.5`) or `Array(double)` (`{0, 0.1, 0.5}`).
+- text, names (separated by blanks), and choices such as `A`, `B`, letter by letter: type `string`.
+- axes: type `string`, e.g. `z`, `xy`, `xyz`.
+- expression: a number, or type `string`: C-like, in x, y, z, t, e.g. `-50`, `1e-3*t`, `sin(x)`.
 )";
 
 std::string expressions() {
-  return "\nAn expression has the operators `+ - * /`, `^` (power), comparisons and `&& || !`, which give 1 or 0, and "
-         "the\n"
+  return "\nAn expression has the operators `+ - * /`, `^` (power), comparisons and `&& || !` (1 or 0), and the "
          "functions " +
          joined(functions_in_expressions()) +
-         ".\n`pow` and `atan2` take two arguments, `gamma` is Γ, `j0 j1 i0 i1` are Bessel's. There is no `abs` (it is "
-         "`fabs`),\n"
-         "`min`, `max` or `?:`. `table(t, 0, 0, 1e-3, 5)` has values at rising places, 0 at 0 and 5 at 1e-3, linear "
-         "between "
-         "them and constant beyond. Instead of an expression there may be statements that assign to `value`:\n"
-         "`value = 0; if (t &lt; 1e-4) { value = 5*sin(x); }`. They know `if`, `else`, and variables of their own "
-         "(`double r = "
-         "x*x;`), but no loops.\nA sign and a power need brackets, `-(x^2)` or `(-x)^2`. At most 10,000 characters. In "
-         "XML "
-         "`<` is written `&lt;` and `&` `&amp;`.\n";
+         ". `pow` and `atan2` take two arguments, `gamma` is Γ, `j0 j1 i0 i1` are Bessel's. There is no `abs` (it is "
+         "`fabs`), `min`, `max` or `?:`. `table(t, 0, 0, 1e-3, 5)` is 0 at t = 0 and 5 at 1e-3, linear between and "
+         "constant beyond. Statements may assign to `value`: `value = 0; if (t &lt; 1e-4) { value = 5*sin(x); }`, with "
+         "`if`, `else` and variables (`double r = x*x;`), without loops. A sign and a power need brackets, `-(x^2)` or "
+         "`(-x)^2`. At most 10,000 characters. In XML `<` is written `&lt;` and `&` `&amp;`.\n";
 }
 
 bool same_word(const std::string& one, const std::string& other) {
@@ -266,7 +273,8 @@ std::string explanation(const std::string& name) {
 }
 
 std::string reference_page() {
-  return introduction + expressions() + "\n## The whole deck\n" + section_text(schema(), "");
+  Written written;
+  return introduction + expressions() + "\n## The whole deck\n" + section_text(schema(), "", written);
 }
 
 }  // namespace strut::deck
