@@ -324,9 +324,14 @@ def seconds_of_phase(report, phase):
 
 
 def put_into_page(page, name, body):
-    """Replaces the text between <!-- name --> and <!-- end --> in the file `page` (a pathlib.Path)."""
+    """Replaces the text between <!-- name --> and <!-- end --> in the file `page` (a pathlib.Path); prints it if the page has
+    no such place."""
     pattern = re.compile(f"(<!-- {name} -->\n).*?(<!-- end -->)", re.S)
-    page.write_text(pattern.sub(lambda m: m.group(1) + body + "\n" + m.group(2), page.read_text()))
+    text, places = pattern.subn(lambda m: m.group(1) + body + "\n" + m.group(2), page.read_text())
+    if places:
+        page.write_text(text)
+    else:
+        print(f"{name}\n{body}")
 
 
 def run_parts(page, parts):
