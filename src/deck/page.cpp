@@ -105,11 +105,11 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-// "- `Horizon` (real > 0, m): …", indented.
+// "- `Horizon` (real > 0, m; required): …", indented.
 std::string row(const Key& key, const std::vector<std::string>& names, const std::string& indent) {
-  const std::string fallback = default_text(key);
-  return indent + "- " + listed(names) + " (" + value_text(key) + (fallback.empty() ? "" : "; " + fallback) +
-         "): " + key.meaning + "\n";
+  const std::string value = value_text(key), fallback = default_text(key);
+  const std::string both = value + (value.empty() || fallback.empty() ? "" : "; ") + fallback;
+  return indent + "- " + listed(names) + (both.empty() ? "" : " (" + both + ")") + ": " + key.meaning + "\n";
 }
 
 std::string rows(const Keys& keys, const std::string& indent = "") {
@@ -125,8 +125,7 @@ std::string rows(const Keys& keys, const std::string& indent = "") {
     else
       ineffective.push_back(key.name);
   }
-  if (!ineffective.empty())
-    text += indent + "- From Peridigm's decks, without effect (a run says why): " + listed(ineffective) + ".\n";
+  if (!ineffective.empty()) text += indent + "- Without effect, from Peridigm's decks: " + listed(ineffective) + ".\n";
   return text;
 }
 
@@ -173,25 +172,29 @@ using Written = std::map<std::string, std::string>;
 
 std::string section_text(const Section& section, const std::string& path, Written& written);
 
+bool nested(const Section& section) {
+  return std::any_of(section.cases.begin(), section.cases.end(),
+                     [](const Section& one) { return !one.sections.empty(); });
+}
+
 std::string cases_text(const Section& section, const std::string& path, Written& written) {
   const std::vector<SharedKeys> shared = shared_keys(section.cases);
-  const bool nested =
-      std::any_of(section.cases.begin(), section.cases.end(), [](const Section& one) { return !one.sections.empty(); });
+  const bool headed = nested(section);
   const auto heading = [&](const std::string& names) {
     const std::string equation = section.selector + " = " + names;
-    return nested ? "\n### " + equation + "\n\n" : "- " + equation + ": ";
+    return headed ? "\n### " + equation + "\n\n" : "- " + equation + ": ";
   };
-  const std::string indent = nested ? "" : "  ";
+  const std::string indent = headed ? "" : "  ";
   std::string text;
   for (const Section& one : section.cases) {
     const std::string keys = rows(own_keys(one, shared), indent);
-    text += heading("\"" + one.name + "\"") + one.meaning + "\n" + (nested && !keys.empty() ? "\n" : "") + keys;
+    text += heading("\"" + one.name + "\"") + one.meaning + "\n" + (headed && !keys.empty() ? "\n" : "") + keys;
     for (const Section& inner : one.sections) text += section_text(inner, path_to(path, inner.name), written);
   }
   for (const SharedKeys& group : shared) {
     std::string names;
     for (const std::string& name : group.cases) names += (names.empty() ? "\"" : ", \"") + name + "\"";
-    text += heading(names) + (nested ? "" : "\n") + rows(group.keys, indent);
+    text += heading(names) + (headed ? "" : "\n") + rows(group.keys, indent);
   }
   return text;
 }
@@ -201,7 +204,10 @@ std::string section_text(const Section& section, const std::string& path, Writte
   if (!path.empty()) heading = "\n## " + path + (section.required ? " (required)" : "") + "\n";
   Keys keys = section.keys;
   if (section.any_key) keys.push_back(*section.any_key);
-  std::string text = (section.meaning.empty() ? "" : "\n" + section.meaning + "\n") + "\n" + rows(keys);
+  for (Key& key : keys)  // the cases stand below
+    if (key.name == section.selector && !section.cases.empty() && !nested(section)) key.choices.clear();
+  const std::string list = rows(keys);
+  std::string text = (section.meaning.empty() ? "" : "\n" + section.meaning + "\n") + (list.empty() ? "" : "\n" + list);
   text += cases_text(section, path, written);
   for (const Section& inner : section.sections) inner_text += section_text(inner, path_to(path, inner.name), written);
   const auto [same, is_new] = written.emplace(text, path);

@@ -10,45 +10,27 @@ Generated from `src/output/observables.cpp`, `src/mechanics/body.hpp` and `mater
 
 The section `Output` of a deck writes these fields of the points. The section `History` writes, in columns:
 
-| column | meaning |
-|---|---|
-| `Max_Displacement`, `Min_Pressure` | extreme over all points; of several components, of the root of the sum of their squares |
-| `Max_Displacement(foam)` | extreme over the points of a node set or block |
-| `Max_Displacement_Z`, `Min_Cauchy_Stress_ZZ` | extreme of a component |
-| `Mean_Displacement_Z(top)` | mean, weighted by reference volumes |
-| `Mean_Velocity_Z(slices)` | mean of each layer of the section `slices` in `History` > `Profiles`, in the columns `Mean_Velocity_Z(slices 1)`, … |
-| `Contact_Force_X(foam:plate)`, `_Y`, `_Z` | contact force on the block `foam` from the block `plate`, with friction, N |
-| `Reaction_X(wall)`, `_Y`, `_Z` | force of the condition `wall` on the body, N |
-| `Crack_Tip(notch)`, `Crack_Speed(notch)` | length of the crack `notch` in `History` > `Cracks` along its direction, m, and its slope over the last rows, m/s |
+- `Max_Displacement`, `Min_Pressure`: extreme over all points; of several components, of the root of the sum of their squares.
+- `Max_Displacement(foam)`: extreme over the points of a node set or block. `Max_Displacement_Z`, `Min_Cauchy_Stress_ZZ`: extreme of a component.
+- `Mean_Displacement_Z(top)`: mean, weighted by reference volumes.
+- `Mean_Velocity_Z(slices)`: mean of each layer of the section `slices` in `History` > `Profiles`, in the columns `Mean_Velocity_Z(slices 1)`, ….
+- `Contact_Force_X(foam:plate)`, `_Y`, `_Z`: contact force on the block `foam` from the block `plate`, with friction, N.
+- `Reaction_X(wall)`, `_Y`, `_Z`: force of the condition `wall` on the body, N.
+- `Crack_Tip(notch)`, `Crack_Speed(notch)`: length of the crack `notch` in `History` > `Cracks` along its direction, m, and its slope over the last rows, m/s.
 
-Forces are means since the previous row: times the interval they are impulses, and their sum is the change of momentum; the first row
-has 0. `Instant_Reaction_Z(wall)` is the force of the single step at the row's time. In equilibria all forces are those of the row's time.
+Forces are means since the previous row: times the interval they are impulses; the first row has 0. `Instant_Reaction_Z(wall)` is the force of the single step at the row's time. In equilibria all forces are those of the row's time.
 
-X and y are the reference and the current position of a point, F is its deformation gradient; other symbols are in
-the [glossary](../docs/glossary.md). Components: 3 are x, y, z; 6 are xx, yy, zz, xy, yz, zx; 9 are a tensor row by row. A variable
-of a law exists where a material of the deck has this law; by quadratic correspondence it is the mean over the cell.
+X and y are the reference and the current position of a point, F is its deformation gradient; other symbols: [glossary](../docs/glossary.md). In brackets: unit, number of components (one unless stated; 3 are x, y, z; 6 are xx, yy, zz, xy, yz, zx; 9 are a tensor row by row), and `nodal` for a nodal variable of the Exodus file; all others are element variables. A variable of a law exists where a material of the deck has this law; by quadratic correspondence it is the mean over the cell.
 
-| variable | components | in the Exodus file | unit | meaning |
-|---|---|---|---|---|
 )";
-
-// Escapes text for a cell of a table.
-std::string escaped(const std::string& text) {
-  std::string escaped;
-  for (const char one : text) {
-    if (one == '|') escaped += '\\';
-    escaped += one;
-  }
-  return escaped;
-}
 
 }  // namespace
 
 std::string observables_page() {
   std::string text = introduction;
   for (const Observable& o : observables_of_all_laws()) {
-    text += "| `" + o.name + "` | " + std::to_string(o.components) + " | " + (o.nodal ? "nodal" : "element") + " | " +
-            o.unit + " | " + escaped(o.meaning) + " |\n";
+    text += "- `" + o.name + "` (" + o.unit + (o.components > 1 ? ", " + std::to_string(o.components) : "") +
+            (o.nodal ? ", nodal" : "") + "): " + o.meaning + ".\n";
   }
   return text;
 }
