@@ -199,19 +199,37 @@ std::string cases_text(const Section& section, const std::string& path, Written&
   return text;
 }
 
-std::string section_text(const Section& section, const std::string& path, Written& written) {
-  std::string heading, inner_text;
-  if (!path.empty()) heading = "\n## " + path + (section.required ? " (required)" : "") + "\n";
+// Meaning, keys and cases.
+std::string body_text(const Section& section, const std::string& path, Written& written) {
   Keys keys = section.keys;
   if (section.any_key) keys.push_back(*section.any_key);
   for (Key& key : keys)  // the cases stand below
     if (key.name == section.selector && !section.cases.empty() && !nested(section)) key.choices.clear();
   const std::string list = rows(keys);
-  std::string text = (section.meaning.empty() ? "" : "\n" + section.meaning + "\n") + (list.empty() ? "" : "\n" + list);
-  text += cases_text(section, path, written);
-  for (const Section& inner : section.sections) inner_text += section_text(inner, path_to(path, inner.name), written);
-  const auto [same, is_new] = written.emplace(text, path);
-  return heading + (is_new ? text : "\nThe keys of " + same->second + ".\n") + inner_text;
+  return (section.meaning.empty() ? "" : section.meaning + "\n") + (list.empty() ? "" : "\n" + list) +
+         cases_text(section, path, written);
+}
+
+// Only sections of any name: these need no heading of their own.
+bool holds_names_only(const Section& section) {
+  return section.keys.empty() && !section.any_key && section.cases.empty() && section.sections.size() == 1 &&
+         section.sections.front().name == any_name;
+}
+
+std::string section_text(const Section& section, const std::string& path, Written& written) {
+  const std::string heading = path.empty() ? "" : "\n## " + path + (section.required ? " (required)" : "") + "\n\n";
+  const Section* owner = &section;
+  std::string body = body_text(section, path, written);
+  if (holds_names_only(section)) {
+    owner = &section.sections.front();
+    body += "\nIn sections of any name: " + body_text(*owner, path_to(path, any_name), written);
+  }
+  const std::string owner_path = owner == &section ? path : path_to(path, any_name);
+  std::string inner_text;
+  for (const Section& inner : owner->sections)
+    inner_text += section_text(inner, path_to(owner_path, inner.name), written);
+  const auto [same, is_new] = written.emplace(body, path);
+  return heading + (is_new ? body : "The keys of " + same->second + ".\n") + inner_text;
 }
 
 const char* const introduction = R"(# Keys of a deck
