@@ -11,7 +11,7 @@ namespace {
 
 using materials::Hyperelastic;
 
-const OptionalKey<double> c10({.name = "C10", .unit = "Pa", .meaning = "Of Mooney & Rivlin: C₁₀ (Ī₁ − 3), with C01."});
+const OptionalKey<double> c10({.name = "C10", .unit = "Pa", .meaning = "C₁₀ (Ī₁ − 3) of Mooney & Rivlin, with C01."});
 const OptionalKey<double> c01({.name = "C01", .unit = "Pa", .meaning = "C₀₁ (Ī₂ − 3)."});
 const OptionalKey<std::vector<double>> moduli(
     {.name = "Ogden Moduli", .unit = "Pa", .meaning = "μ_p, up to three: Σ μ_p/α_p (λ̄₁^α_p + λ̄₂^α_p + λ̄₃^α_p − 3)."});

@@ -13,7 +13,7 @@ const TextKey library({.name = "Library", .meaning = "The shared object, by its 
 const ChoiceKey<LibraryInterface> interface(
     {.name = "Interface",
      .fallback = "strut",
-     .meaning = "Of the function: that of materials/strut_law.h, or a user subroutine of Abaqus, compiled with 8-byte "
+     .meaning = "Interface of the function: materials/strut_law.h, or a user subroutine of Abaqus, compiled with 8-byte "
                 "reals. It is called in the unrotated frame: DROT is 1, DFGRD0 and DFGRD1 are stretches."},
     {{"strut", LibraryInterface::strut}, {"UMAT", LibraryInterface::umat}, {"VUMAT", LibraryInterface::vumat}});
 const OptionalKey<std::string> function_name(

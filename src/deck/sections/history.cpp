@@ -59,11 +59,11 @@ const Section profiles = {
     .sections = {
         {.name = any_name, .required = true, .meaning = "One set of layers.", .keys = {across, layers, node_set}}}};
 
-const VectorKey place({.name = "Point", .unit = "m", .meaning = "Its place in the reference state."});
+const VectorKey place({.name = "Point", .unit = "m", .meaning = "Position in the reference state."});
 const Section probes = {
     .name = "Probes",
     .meaning =
-        "Places whose nearest points the history follows, as `Displacement_Z(tip)`: each is a node set of one point, "
+        "Positions whose nearest points the history follows, as `Displacement_Z(tip)`: each is a node set of one point, "
         "which a run tells at its start.",
     .sections = {{.name = any_name, .required = true, .meaning = "One probe.", .keys = {place}}}};
 
