@@ -186,8 +186,14 @@ std::string cases_text(const Section& section, const std::string& path, Written&
   };
   const std::string indent = headed ? "" : "  ";
   std::string text;
+  std::map<std::string, std::string> told;  // meanings of the keys of earlier cases
   for (const Section& one : section.cases) {
-    const std::string keys = rows(own_keys(one, shared), indent);
+    Keys own = own_keys(one, shared);
+    for (Key& key : own)
+      if (const auto [same, is_new] = told.emplace(key.name, key.meaning);
+          !is_new && same->second == key.meaning && key.meaning.size() > 20)
+        key.meaning = "As above.";
+    const std::string keys = rows(own, indent);
     text += heading("\"" + one.name + "\"") + one.meaning + "\n" + (headed && !keys.empty() ? "\n" : "") + keys;
     for (const Section& inner : one.sections) text += section_text(inner, path_to(path, inner.name), written);
   }
