@@ -52,12 +52,13 @@ std::string default_text(const Key& key) {
   return key.fallback ? "default `" + *key.fallback + "`" : "";
 }
 
-// "real > 0, m"; of a choice its choices.
+// "reals > 0, m"; "> 0, m" of a real number; of a choice its choices.
 std::string value_text(const Key& key) {
   const std::string range = range_text(key);
-  std::string text = key.kind == Kind::choice ? range : type_text(key);
-  if (key.kind != Kind::choice && !range.empty()) text += " " + range;
-  return key.unit.empty() ? text : text + ", " + key.unit;
+  const bool is_shown = key.kind != Kind::choice && (key.kind != Kind::real || (range.empty() && key.unit.empty()));
+  std::string text = is_shown ? type_text(key) : "";
+  if (!range.empty()) text += (text.empty() ? "" : " ") + range;
+  return key.unit.empty() ? text : text + (text.empty() ? "" : ", ") + key.unit;
 }
 
 std::string quoted(const std::string& name) { return name == any_name ? name : "`" + name + "`"; }
@@ -242,11 +243,11 @@ const char* const introduction = R"(# Keys of a deck
 
 Generated from the schema in `src/deck`; do not edit by hand. SI units throughout.
 
-A deck is an XML file of nested sections, `<ParameterList name="…">`, and keys, `<Parameter name="…" type="…" value="…"/>`, or the same in YAML. `Blocks > (any name) > Horizon` is the key `Horizon` in a section of any name in the section `Blocks`. Unknown keys and sections, and values outside their range, are errors, reported together. In brackets: the value, its unit, and `required` or the default.
+A deck is an XML file of nested sections, `<ParameterList name="…">`, and keys, `<Parameter name="…" type="…" value="…"/>`, or the same in YAML. `Blocks > (any name) > Horizon` is the key `Horizon` in a section of any name in the section `Blocks`. Unknown keys and sections, and values outside their range, are errors, reported together. In brackets: the value (a real number unless stated), its unit, and `required` or the default.
 
 - bool: type `bool`, `true` or `false`.
 - integer: type `int`, or `string` with an integer.
-- real: type `double` or `int`, or `string` with a number; finite.
+- real number: type `double` or `int`, or `string` with a number; finite.
 - reals: type `string` (`0 0.1 0.5`) or `Array(double)` (`{0, 0.1, 0.5}`).
 - text, names (separated by blanks), and choices such as `A`, `B`, letter by letter: type `string`.
 - axes: type `string`, e.g. `z`, `xy`, `xyz`.
