@@ -168,8 +168,21 @@ Keys own_keys(const Section& one, const std::vector<SharedKeys>& shared) {
   return keys;
 }
 
-// The sections that stand on the page so far: body, path.
-using Written = std::map<std::string, std::string>;
+// What stands on the page so far, and the path of its section.
+struct Written {
+  std::map<std::string, std::string> bodies, keys;  // of sections; name and meaning of keys
+
+  // Replaces a long meaning that a key of this name has further up.
+  void shorten(Key& key, const std::string& path) {
+    if (key.meaning.size() <= 20) return;
+    const auto [same, is_new] = keys.emplace(key.name + "\n" + key.meaning, path);
+    if (is_new) return;
+    if (same->second == path)
+      key.meaning = "As above.";
+    else if (key.meaning.size() > 60)
+      key.meaning = "As in " + same->second + ".";
+  }
+};
 
 std::string section_text(const Section& section, const std::string& path, Written& written);
 
@@ -187,13 +200,9 @@ std::string cases_text(const Section& section, const std::string& path, Written&
   };
   const std::string indent = headed ? "" : "  ";
   std::string text;
-  std::map<std::string, std::string> told;  // meanings of the keys of earlier cases
   for (const Section& one : section.cases) {
     Keys own = own_keys(one, shared);
-    for (Key& key : own)
-      if (const auto [same, is_new] = told.emplace(key.name, key.meaning);
-          !is_new && same->second == key.meaning && key.meaning.size() > 20)
-        key.meaning = "As above.";
+    for (Key& key : own) written.shorten(key, path);
     const std::string keys = rows(own, indent);
     text += heading("\"" + one.name + "\"") + one.meaning + "\n" + (headed && !keys.empty() ? "\n" : "") + keys;
     for (const Section& inner : one.sections) text += section_text(inner, path_to(path, inner.name), written);
@@ -212,6 +221,7 @@ std::string body_text(const Section& section, const std::string& path, Written& 
   if (section.any_key) keys.push_back(*section.any_key);
   for (Key& key : keys)  // the cases stand below
     if (key.name == section.selector && !section.cases.empty() && !nested(section)) key.choices.clear();
+  for (Key& key : keys) written.shorten(key, path);
   const std::string list = rows(keys);
   return (section.meaning.empty() ? "" : section.meaning + "\n") + (list.empty() ? "" : "\n" + list) +
          cases_text(section, path, written);
@@ -223,20 +233,24 @@ bool holds_names_only(const Section& section) {
          section.sections.front().name == any_name;
 }
 
+// Meaning, keys and cases of a section and of those of any name in it.
+std::string whole_body(const Section& section, const std::string& path, Written& written) {
+  const std::string body = body_text(section, path, written);
+  if (!holds_names_only(section)) return body;
+  const Section& named = section.sections.front();
+  return body + "\nIn sections of any name: " + body_text(named, path_to(path, any_name), written);
+}
+
 std::string section_text(const Section& section, const std::string& path, Written& written) {
-  const std::string heading = path.empty() ? "" : "\n## " + path + (section.required ? " (required)" : "") + "\n\n";
-  const Section* owner = &section;
-  std::string body = body_text(section, path, written);
-  if (holds_names_only(section)) {
-    owner = &section.sections.front();
-    body += "\nIn sections of any name: " + body_text(*owner, path_to(path, any_name), written);
-  }
-  const std::string owner_path = owner == &section ? path : path_to(path, any_name);
-  std::string inner_text;
-  for (const Section& inner : owner->sections)
-    inner_text += section_text(inner, path_to(owner_path, inner.name), written);
-  const auto [same, is_new] = written.emplace(body, path);
-  return heading + (is_new ? body : "The keys of " + same->second + ".\n") + inner_text;
+  std::string text = path.empty() ? "" : "\n## " + path + (section.required ? " (required)" : "") + "\n\n";
+  Written none;
+  const auto [same, is_new] = written.bodies.emplace(whole_body(section, path, none), path);
+  text += is_new ? whole_body(section, path, written) : "The keys of " + same->second + ".\n";
+  const bool is_named = holds_names_only(section);
+  const Section& owner = is_named ? section.sections.front() : section;
+  const std::string owner_path = is_named ? path_to(path, any_name) : path;
+  for (const Section& inner : owner.sections) text += section_text(inner, path_to(owner_path, inner.name), written);
+  return text;
 }
 
 const char* const introduction = R"(# Keys of a deck
