@@ -170,9 +170,8 @@ Section next_solver_section() {
   section.name = next_name;
   section.required = false;
   section.meaning =
-      "Explicit steps that go on where the equilibria of Solver end: a body that is loaded slowly, then struck. "
-      "Conditions act in both, but for those that need inertia (initial velocities, tools with a mass, non-reflecting "
-      "ends), which begin here; so do bonds to break.";
+      "Explicit steps after the equilibria of Solver: a body that is loaded slowly, then struck. Conditions that need "
+      "inertia (initial velocities, tools with a mass, non-reflecting ends) and the breaking of bonds begin here.";
   section.keys.push_back(keeps_velocities);
   return section;
 }
