@@ -102,6 +102,8 @@ class Frame:
 
     def condition(self, name, condition):
         """As one or several conditions by name: one along several axes may need two signs, or as many values."""
+        if condition["Type"] == "Periodic Sides":
+            return {name: self.sides(condition)}
         if "Coordinate" in condition:
             return self.along_axes(name, condition)
         turned = {}
@@ -123,6 +125,13 @@ class Frame:
                 rest = turned.get(key, 0.0)
                 turned[key] = rest + float(self.speed[AXES.index(axis)]) if "Mass" in turned else f"{rest}{self.way(axis)}"
         return {name: turned}
+
+    def sides(self, condition):
+        axis, sign = self.axis(condition["Coordinate"])
+        at = lambda key: float(self.length * (sign * condition[key].value + self.shift[AXES.index(axis)]))
+        lower, upper = sorted((at("Lower"), at("Upper")))
+        made = {key: self.value(value) for key, value in condition.items()}
+        return made | {"Coordinate": axis, "Lower": lower, "Upper": upper}
 
     def along_axes(self, name, condition):
         made = {}

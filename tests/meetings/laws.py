@@ -120,7 +120,7 @@ def impulses_of_load(scene, one, time):
 
 def angular_momentum(scene, base, written):
     """Of free bodies: central differences keep Σ m y × v where no force has a moment."""
-    if not scene.explicit or scene.has(*REACTING, "Body Force", "Non-Reflecting End"):
+    if not scene.explicit or scene.has(*REACTING, "Body Force", "Non-Reflecting End", "Periodic Sides"):
         raise NotHere("something acts from outside")
     m = (base.frames[0]["Volume"] * base.frames[0]["Density"])[:, None]
     def of(frame):
@@ -132,6 +132,15 @@ def angular_momentum(scene, base, written):
     off = max(np.abs(v[0] - values[1][0]).max() for v in values[1:]) / scale
     if off > 100 * ROUND_OFF:
         return f"angular momentum: off by {off:.2e} of Σ m |y| |v|"
+
+
+def probe(scene, base, written):
+    """The history follows the point that stands where the probe is."""
+    number = np.argmin(np.linalg.norm(base.at - scene.probed(), axis=1))
+    row = np.array([base.history[f"Displacement_{a}(probe)"][-1] for a in "XYZ"])
+    shown = base.frames[-1]["Displacement"][number]
+    if np.abs(row - shown).max() > 1e-12 * max(np.abs(shown).max(), 1e-12 * scene.h):  # digits of the file
+        return f"probe: {row} m, and {shown} in the last frame"
 
 
 def told(base, *words):
@@ -171,7 +180,7 @@ def passive(scene, base, written):
         raise NotHere("equilibria are driven")
     for one in scene.conditions.values():
         driven = one["Type"] == "Body Force" or one["Type"] in MOTIONS and one["Value"].factor and one["Value"].text != "0"
-        if driven or any(key.startswith(("Travel", "Force")) for key in one):
+        if driven or any(key.startswith(("Travel", "Force", "Stretch")) for key in one):
             raise NotHere("something drives them")
     rows = base.history
     held = sum(rows[n] for n in ("Kinetic_Energy", "Elastic_Energy", "Plastic_Work", "Stabilization_Energy", "Fracture_Energy", "Tool_Kinetic_Energy"))
@@ -205,4 +214,4 @@ def rows_after_start(column):
 
 
 LAWS = {"stable": stable, "mass": mass, "start": start, "end": end, "finite": finite, "momentum": momentum, "angular momentum": angular_momentum,
-        "signs": signs, "passive": passive, "balance": balance}
+        "signs": signs, "passive": passive, "balance": balance, "probe": probe}

@@ -439,6 +439,8 @@ def half_of_it(case):
         raise NotHere("Peridigm's grid has one block, and its own place")
     if "Bond Filters" in scene.deck["Discretization"]:
         raise NotHere("cracks are not mirrored")
+    if scene.has("Periodic Sides"):
+        raise NotHere("symmetry planes and periodic sides are refused together")
     if scene.is_quadratic:
         raise NotHere("the law points of a cell are no mirror images of each other (docs/theory.md, Symmetry planes)")
     axis = 0

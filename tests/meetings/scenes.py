@@ -83,6 +83,10 @@ class Scene:
         density = {b: self.density_of_block(b) for b in set(self.mesh.blocks)}
         return np.array([density[b] for b in self.mesh.owners()]) * self.mesh.site_volumes()
 
+    def probed(self):
+        """The place of a site."""
+        return self.mesh.sites()[len(self.mesh.sites()) // 3]
+
     def members(self, name):
         """Which sites a set or block has: a function of place."""
         at = self.mesh.sites()
@@ -454,9 +458,9 @@ class Draft:
     def along_axes(self, made, case):
         kind, unit = made["Type"], case.keys["Value"].unit
         made["Coordinate"] = "".join(self.random.sample(AXES, self.pick((1, 1, 1, 2, 3))))
-        if kind == "Initial Velocity":
+        if kind in ("Initial Velocity", "Initial Displacement"):
             made["Node Set"] = self.pick(("all", f"block_{self.pick(range(1, 1 + max(self.mesh.blocks)))}"))
-            made["Value"] = self.field(self.speed, unit)
+            made["Value"] = self.field(self.speed if unit == "m/s" else 0.01 * self.h, unit)
             return made
         later = f"(1 - cos(3*({{t}} - {self.begin!r})/{self.time!r}))"  # from 0, smoothly
         if kind in MOTIONS:
@@ -506,9 +510,11 @@ class Draft:
         return made
 
     def conditions(self):
-        kinds = list(self.schema.at(f"Boundary Conditions > {ANY}").cases)
-        inertial = ("Initial Velocity", "Non-Reflecting End")
+        kinds = [kind for kind in self.schema.at(f"Boundary Conditions > {ANY}").cases if kind != "Periodic Sides"]
+        inertial = ("Initial Velocity", "Initial Displacement", "Non-Reflecting End")
         kinds = [kind for kind in kinds if self.explicit or kind not in inertial]
+        if any(material["Material Model"] != "Elastic" for material in self.of_material.values()):
+            kinds = [kind for kind in kinds if kind != "Initial Displacement"]  # forces that follow from positions alone
         made, held, thrown = {}, [], set()
         if not self.explicit:  # held first, or there is no equilibrium
             made |= self.motion(held, thrown)
@@ -526,12 +532,28 @@ class Draft:
                 made[f"c{len(made) + 1}"] = one
         return made | self.motion(held, thrown) if self.explicit else made
 
+    def sides(self, conditions, contact):
+        """Sides at both ends of the bodies along an axis, that nothing stands across; {} where they do not fit."""
+        if self.at_nodes or any(one["Type"] == "Symmetry Plane" for one in conditions.values()):
+            return {}
+        axis = self.random.randrange(3 if len(self.boxes) == 1 else 2)
+        across = [one for one in conditions.values() if "Normal" in one and one["Normal"].along[axis]]
+        lower, upper = (float(f([getattr(box, end)[axis] for box in self.boxes])) for f, end in ((min, "low"), (max, "high")))
+        horizon = 1.01 * self.reach * max(np.prod(box.cell) ** (1 / 3) for box in self.boxes)
+        if across or contact and upper - lower < 3 * horizon:
+            return {}
+        made = {"Type": "Periodic Sides", "Coordinate": AXES[axis], "Lower": Num(lower, "m"), "Upper": Num(upper, "m")}
+        if not contact and self.chance(0.6):
+            strain = self.pick((-1, 1)) * self.uniform(0.1, 0.5) * self.speed * self.time / (upper - lower)
+            made["Stretch"] = Expr(f"(1 + {strain!r}*(1 - cos(3*({{t}} - {self.begin!r})/{self.time!r})))")
+        return {"sides": made}
+
     def motion(self, held, thrown):
         """So that something happens: a slow press on a held foot, or a velocity of the last body towards the others."""
         made = {}
         if self.explicit:
             blocks = [f"block_{n}" for n in self.block_of[-1]]
-            if self.chance(0.8) and not any((block, "z") in thrown for block in [*blocks, "all"]):
+            if self.chance(0.8) and not any((block, "z", "Initial Velocity") in thrown for block in [*blocks, "all"]):
                 for n, block in enumerate(blocks):
                     made[f"flight {n}"] = {"Type": "Initial Velocity", "Node Set": block, "Coordinate": "z",
                                            "Value": Expr("1", -self.speed * self.uniform(0.3, 1.5), "m/s")}
@@ -554,9 +576,10 @@ class Draft:
 
     def free(self, one, held, thrown):
         """Whether it says no other thing of the same points along the same axis than another one does. Takes note of it."""
-        if one["Type"] == "Initial Velocity":
-            keys = {(one["Node Set"], axis) for axis in one["Coordinate"]}
-            overlap = any(axis == a and ("all" in (one["Node Set"], s) or s == one["Node Set"]) for s, axis in thrown for _, a in keys)
+        if one["Type"] in ("Initial Velocity", "Initial Displacement"):
+            keys = {(one["Node Set"], axis, one["Type"]) for axis in one["Coordinate"]}
+            overlap = any((axis, kind) == (a, k) and ("all" in (one["Node Set"], s) or s == one["Node Set"])
+                          for s, axis, kind in thrown for _, a, k in keys)
             thrown |= set() if overlap else keys
             return not overlap
         if one["Type"] not in (*MOTIONS, "Symmetry Plane", "Non-Reflecting End"):
@@ -605,6 +628,8 @@ class Draft:
         if len(self.boxes) > 1 and self.chance(0.85) or self.chance(0.15):
             deck["Contact"] = self.contact()
         deck["Boundary Conditions"] = self.conditions()
+        if self.chance(0.2):
+            deck["Boundary Conditions"] |= self.sides(deck["Boundary Conditions"], "Contact" in deck)
         deck["Node Sets"] = {name: self.sets[name] for name in self.sets
                              if any(c.get("Node Set") == name for c in deck["Boundary Conditions"].values())}
         deck["Solver"] = self.solver()
@@ -716,7 +741,9 @@ def written(scene, frame=Frame(), restart=None, order=None):
     touching = [f"Contact_Force_{a}(block_{one}:block_{other})" for one, other in touching_blocks(scene) for a in "XYZ"]
     interval = (scene.end - scene.begin) * frame.time / STEPS_A_FRAME
     deck["Output"] = {"Output Filename": "out.e", "Output Interval": interval, "Output Variables": {name: True for name in fields_of(scene)}}
-    deck["History"] = {"Filename": "out.csv", "Frequency": 25 if scene.is_long else 1, "Variables": {name: True for name in reactions + touching}}
+    probe = [f"Displacement_{a}(probe)" for a in "XYZ"]
+    deck["History"] = {"Filename": "out.csv", "Frequency": 25 if scene.is_long else 1, "Variables": {name: True for name in reactions + touching + probe},
+                       "Probes": {"probe": {"Point": tuple(map(float, frame.places(scene.probed()[None])[0]))}}}
     if restart:
         deck["Restart"] = restart
     if order is not None:

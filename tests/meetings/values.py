@@ -211,6 +211,9 @@ NOT_DRAWN = {
     "Boundary Conditions > (any name) > Normal": COMPOSED,
     "Boundary Conditions > (any name) > Axis": COMPOSED,
     "Boundary Conditions > (any name) > Radius": COMPOSED,
+    "Boundary Conditions > (any name) > Lower": COMPOSED,
+    "Boundary Conditions > (any name) > Upper": COMPOSED,
+    "Boundary Conditions > (any name) > Stretch": COMPOSED,
     "Boundary Conditions > (any name) > Lower Corner": COMPOSED,
     "Boundary Conditions > (any name) > Upper Corner": COMPOSED,
     "Solver > Initial Time": COMPOSED,
@@ -245,6 +248,4 @@ GROUPS = {
 CHOICES_NOT_DRAWN = {
     "Discretization > Type": {"Memory": "regression/python"},
     "Materials > (any name) > Material Model": {"User Library": "regression/materials/test_user_library"},
-    "Boundary Conditions > (any name) > Type": {"Periodic Sides": "regression/conditions/test_periodic_sides",
-                                                "Initial Displacement": "unit/deck, regression/deck/test_peridigm"},
 }

@@ -40,8 +40,8 @@ def two_valued(values):
     return all(((layer == low) | (layer == high)).all() for layer in values)
 
 
-def solid_of(path, values, threshold, invert):
-    """Solid or not, and a sentence about the method. threshold None: Otsu's if there are more than two values."""
+def solid_of(path, values, threshold, invert, may_fill=False):
+    """Solid or not, and a sentence about the method. threshold None: Otsu's if there are more than two values. may_fill: all may be solid."""
     if values.dtype == bool:
         if threshold is not None or invert:
             fail(f"{path} says itself which voxels are solid: --threshold, --otsu and --invert do not apply")
@@ -51,7 +51,7 @@ def solid_of(path, values, threshold, invert):
     if np.issubdtype(values.dtype, np.floating) and not np.isfinite(values).all():
         fail(f"{path}: {np.count_nonzero(~np.isfinite(values))} voxels are not finite")
     low, high = values.min(), values.max()
-    if low == high:
+    if low == high and not may_fill:
         fail(f"{path}: all voxels have the value {low:g}, so that nothing tells solid from void")
     how = "as given"
     if threshold is None and two_valued(values):
@@ -59,7 +59,7 @@ def solid_of(path, values, threshold, invert):
     elif threshold is None or threshold == "otsu":
         threshold, how = otsu(*histogram(values)), "by Otsu's method"
     solid = values <= threshold if invert else values > threshold
-    if not solid.any() or solid.all():
+    if not solid.any() or solid.all() and not may_fill:
         fail(f"{path}: at the threshold {threshold:g} every voxel is {'solid' if solid.any() else 'void'}; "
              f"the values go from {low:g} to {high:g}")
     if how.startswith("none"):

@@ -8,8 +8,8 @@ from strut_tools import captured, check_input, fail
 BAND = 3  # voxels from the surface within which the distance is that of the triangles
 
 
-def read(path, edge, factor=1.0):
-    """edge: of a voxel, m; factor: the unit of the file's lengths, m."""
+def read(path, edge, factor=1.0, in_part=False):
+    """edge: of a voxel, m; factor: the unit of the file's lengths, m; in_part: distances are used, not their signs alone."""
     from vtkmodules.vtkIOGeometry import vtkSTLReader
 
     check_input(path)
@@ -27,9 +27,14 @@ def read(path, edge, factor=1.0):
     if np.prod(shape.astype(float)) > 4e9:
         fail(f"{path}: {' x '.join(map(str, shape))} voxels of {edge:g} m; expected a larger --voxel-size")
     low = 0.5 * (low + high - edge * shape)  # the box holds whole voxels, as much more at either side
-    inside = inside_of(surface, low, edge, shape)
-    return Image(distances(surface, inside, low, edge), (edge,) * 3,
-                 f"closed surface of {surface.GetNumberOfPolys():,} triangles in STL, volume {volume_of(surface):.6g} m3")
+    bodies = bodies_in(surface, low, edge, shape)
+    twice = np.count_nonzero(bodies > 1)
+    if twice and in_part:
+        fail(f"{path}: bodies overlap in {twice:,} voxels, so that not all triangles are surface, and --grey and --density have no meaning; "
+             "expected the union of the bodies")
+    overlap = f"; bodies overlap in {twice:,} voxels, which are solid" if twice else ""
+    return Image(distances(surface, bodies > 0, low, edge), (edge,) * 3,
+                 f"closed surface of {surface.GetNumberOfPolys():,} triangles in STL, volume {volume_of(surface):.6g} m3{overlap}")
 
 
 def scaled(surface, factor):
@@ -62,6 +67,48 @@ def volume_of(surface):
     mass = vtkMassProperties()
     mass.SetInputData(surface)
     return mass.GetVolume()
+
+
+def pieces_of(surface):
+    """The connected pieces of a closed surface, and +1, or -1 for those that are turned round against the largest one: cavities."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    from vtkmodules.vtkFiltersCore import vtkPolyDataConnectivityFilter, vtkPolyDataNormals
+
+    alike, regions = vtkPolyDataNormals(), vtkPolyDataConnectivityFilter()
+    alike.SetInputData(surface)
+    alike.ConsistencyOn(), alike.SplittingOff()
+    regions.SetInputConnection(alike.GetOutputPort())
+    regions.SetExtractionModeToAllRegions(), regions.ColorRegionsOn()
+    regions.Update()
+    whole = regions.GetOutput()
+    places = vtk_to_numpy(whole.GetPoints().GetData()).astype(float)
+    triangles = vtk_to_numpy(whole.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    region = vtk_to_numpy(whole.GetPointData().GetArray("RegionId"))[triangles[:, 0]]
+    a, b, c = np.moveaxis((places - places.mean(axis=0))[triangles], 1, 0)
+    volumes = np.bincount(region, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6)
+    signs = np.sign(volumes * volumes[np.argmax(np.abs(volumes))])
+    order = np.argsort(region, kind="stable")
+    for own, sign in zip(np.split(triangles[order], np.cumsum(np.bincount(region))[:-1]), signs):
+        used, numbers = np.unique(own, return_inverse=True)
+        piece, points, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
+        points.SetData(numpy_to_vtk(places[used], deep=True))
+        cells.SetData(3, numpy_to_vtk(numbers.reshape(-1).astype(np.int64), deep=True, array_type=16))
+        piece.SetPoints(points), piece.SetPolys(cells)
+        yield piece, int(sign)
+
+
+def bodies_in(surface, low, edge, shape):
+    """In how many bodies the middle of each voxel (z, y, x) is; the surface of a cavity takes one away."""
+    count = np.zeros(shape[::-1], np.int32)
+    for piece, sign in pieces_of(surface):
+        least, most = np.reshape(piece.GetBounds(), (3, 2)).T
+        first = np.clip(np.floor((least - low) / edge).astype(int) - 1, 0, shape - 1)
+        last = np.clip(np.ceil((most - low) / edge).astype(int) + 1, 0, shape - 1)
+        part = tuple(slice(a, b + 1) for a, b in zip(first[::-1], last[::-1]))
+        count[part] += sign * inside_of(piece, low + first * edge, edge, last - first + 1)
+    return count
 
 
 def inside_of(surface, low, edge, shape):

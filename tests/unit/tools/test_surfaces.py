@@ -29,6 +29,23 @@ def sphere(path, radius, open_cap=False):
     writer.SetFileName(str(path)), writer.Write()
 
 
+def bricks(path, *bounds, cavities=()):
+    """Bricks from x0 x1 y0 y1 z0 z1 (m), those of these numbers turned inside out."""
+    from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkReverseSense, vtkTriangleFilter
+    from vtkmodules.vtkFiltersSources import vtkCubeSource
+    from vtkmodules.vtkIOGeometry import vtkSTLWriter
+
+    all_of_them, triangles, writer = vtkAppendPolyData(), vtkTriangleFilter(), vtkSTLWriter()
+    for number, box in enumerate(bounds):
+        brick, turned = vtkCubeSource(), vtkReverseSense()
+        brick.SetBounds(*box)
+        turned.SetInputConnection(brick.GetOutputPort())
+        all_of_them.AddInputConnection((turned if number in cavities else brick).GetOutputPort())
+    triangles.SetInputConnection(all_of_them.GetOutputPort())
+    writer.SetInputConnection(triangles.GetOutputPort())
+    writer.SetFileName(str(path)), writer.Write()
+
+
 class Surfaces(InFolder):
     def works(self, *words):
         done = self.run_tool("voxels", *words)
@@ -54,6 +71,22 @@ class Surfaces(InFolder):
         self.assertAlmostEqual(1e-3 + moved, (0.3 * 8e-9 * 3 / 4 / math.pi) ** (1 / 3), delta=5e-6)  # a 20th of a voxel
         printed = self.works("sphere.stl", "whole.g", "--voxel-size", 1e-4, "--density", 0.3)
         self.assertAlmostEqual(float(re.search(r"density +([0-9.]+) %", printed)[1]), 30, delta=0.03)
+
+    def test_bodies_that_overlap_are_their_union_and_cavities_are_void(self):
+        across, along = (0, 8e-3, 2e-3, 4e-3, 2e-3, 4e-3), (3e-3, 5e-3, 0, 8e-3, 2e-3, 4e-3)
+        bricks(self.folder / "cross.stl", across, along)
+        printed = self.works("cross.stl", "out.g", "--voxel-size", 5e-4)
+        self.assertIn(f"{4 * 4 * (16 + 16 - 4)}, each", printed)  # voxels of edges that divide all lengths
+        self.assertIn(f"bodies overlap in {4 * 4 * 4} voxels, which are solid", printed)
+        self.assertIn("expected the union", self.run_tool("voxels", "cross.stl", "out.g", "--voxel-size", 5e-4, "--density", 0.3).stderr)
+        whole, hole, core = ((a, b) * 3 for a, b in ((0, 8e-3), (1e-3, 7e-3), (3e-3, 5e-3)))
+        bricks(self.folder / "core.stl", whole, hole, core, cavities=[1])
+        printed = self.works("core.stl", "out.g", "--voxel-size", 1e-3, "--pieces", 0)
+        self.assertIn(f"{8**3 - 6**3 + 2**3}, each", printed)
+
+    def test_a_block_may_fill_its_box(self):
+        bricks(self.folder / "block.stl", (0, 4e-3, 0, 3e-3, 0, 2e-3))
+        self.assertIn(f"{8 * 6 * 4}, each", self.works("block.stl", "out.g", "--voxel-size", 5e-4))
 
     def test_lengths_of_the_file_have_a_unit(self):
         sphere(self.folder / "sphere.stl", 1.0)
