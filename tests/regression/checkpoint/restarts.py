@@ -4,8 +4,9 @@
   restarts.py [--kills N] [--seed S] strut strut-compare mpirun [its options]
 
 Scenes: in explicit steps a plastic bar that strikes a plane with an ordinary elastic one behind it (points that are
-subcycled, contact, friction, viscosity, reactions), the same by quadratic correspondence, and with bonds that break;
-equilibria between tools, and of surfaces that rub on each other. Each is run once without a break. Then it is ended by
+subcycled, contact, friction, viscosity, reactions), the same by quadratic correspondence, and with bonds that break,
+and between periodic sides; equilibria between tools, also while periodic sides come nearer, and of surfaces that rub on
+each other. Each is run once without a break. Then it is ended by
 SIGTERM, by its wall time again and again, by N SIGKILLs at random times (a checkpoint is written every third step, so
 that many of them come in the middle of that, of a frame or of a line), by the loss of a rank, by a full disk; and goes
 on. Histories must be the same to the last byte and fields to the last bit on as many ranks; 1e-12 on others.
@@ -27,17 +28,18 @@ from strut_tools import is_open_mpi  # noqa: E402
 
 SPACING = 0.004
 GAP = 0.0005  # between the two bars
+PERIOD = 7  # points from one periodic side to the other
 
 
-def points(path, with_flap, between):
-    """Two bars, one above the other, with a gap between: no two points alike, so that a mistake has nowhere to hide. The flap is one layer,
+def points(path, with_flap, between, width):
+    """Two bars, one above the other, with a gap between: no two points alike, so that a mistake has nowhere to hide; `width` points across x. The flap is one layer,
     nearly flat, at a side of the lower one: its points are subcycled."""
     rng = random.Random(1)
     with open(path, "w") as file:
         for k in range(14):
             for j in range(5):
-                for i in range(5):
-                    x, y, z = (SPACING * (n + 0.1 * rng.random()) for n in (i - 2, j - 2, k + 0.5))
+                for i in range(width):
+                    x, y, z = (SPACING * (n + 0.1 * rng.random()) for n in (i - width // 2, j - 2, k + 0.5))
                     block, gap = (1, 0) if k < 8 else (2, between)
                     file.write(f"{x:.17g} {y:.17g} {z + gap:.17g} {block} {SPACING**3:.17g}\n")
         for j in (-1, 0, 1) if with_flap else ():
@@ -176,6 +178,30 @@ def cells():
     return [text.replace(model, model + '<Parameter name="Formulation" type="string" value="Quadratic Correspondence"/>')]
 
 
+def sides(**more):
+    """The bars go on behind both sides across x, PERIOD points apart."""
+    half = 0.5 * PERIOD * SPACING
+    return section("sides", keys(Type="Periodic Sides", Coordinate="x", Lower=-half, Upper=half, **more))
+
+
+def with_sides(text, condition):
+    conditions = '<ParameterList name="Boundary Conditions">'
+    assert conditions in text
+    return text.replace(conditions, conditions + condition)
+
+
+def periodic():
+    """The same between periodic sides, through which bonds and contact go."""
+    text = cells()[0].replace("cells.", "periodic.")
+    return [with_sides(text, sides()).replace('"Reaction_Z(wall)"', '"Reaction_X(sides)" type="bool" value="true"/><Parameter name="Reaction_Z(wall)"')]
+
+
+def stretched():
+    """The equilibria between tools, while the periodic sides come nearer."""
+    text = press()[0].replace("press.", "stretched.")
+    return [with_sides(text, sides(Stretch="1 - 0.01*t"))]
+
+
 def breaking():
     """The same, with bonds that break: those of the copper by their stretch, of the steel by their energy, which the history follows."""
     text = "\n".join(cells()).replace("cells.", "breaking.")
@@ -213,7 +239,8 @@ def cracking():
     return [text, section("Damage Models", section("brittle", model))]
 
 
-SCENES = {"impact": impact, "press": press, "rubbing": rubbing, "cells": cells, "breaking": breaking, "tearing": tearing, "cracking": cracking}
+SCENES = {"impact": impact, "press": press, "rubbing": rubbing, "cells": cells, "periodic": periodic, "stretched": stretched,
+          "breaking": breaking, "tearing": tearing, "cracking": cracking}
 
 
 class Test:
@@ -234,7 +261,8 @@ class Test:
         """A new folder with the deck of a scene."""
         path = Path(name)
         path.mkdir()
-        points(path / "points.txt", with_flap=scene == "cells", between=0 if scene == "rubbing" else GAP)
+        points(path / "points.txt", with_flap=scene == "cells", between=0 if scene == "rubbing" else GAP,
+               width=PERIOD if scene in ("periodic", "stretched") else 5)
         keep = section("Restart", keys(Frequency=frequency))
         text = section(scene, *SCENES[scene](), keep).replace(f' name="{scene}"', "", 1)
         if not frames:  # but the first
@@ -298,6 +326,7 @@ class Test:
         self.run(Path(elsewhere), "--continue", ranks=2)
         # Equilibria are found to 1e-6 of the forces, by preconditioners that differ with the ranks.
         tolerances = {"impact": (1e-12, 1e-9), "press": (1e-5, 1e-4), "rubbing": (1e-5, 1e-4), "cells": (1e-12, 1e-9),
+                      "periodic": (1e-12, 1e-9), "stretched": (1e-5, 1e-4),
                       "breaking": (1e-12, 1e-9), "tearing": (1e-12, 1e-9), "cracking": (1e-12, 1e-9)}
         self.same(whole, elsewhere, scene, *tolerances[scene])
 

@@ -120,6 +120,41 @@ INSTANTIATE_TEST_SUITE_P(
              key("Horizon Factor", "1.75")}),
     [](const auto& info) { return info.param.name; });
 
+// Two bars that lie on each other with their surfaces; the upper one is thrown onto the lower one and along it, so that
+// faces slide through the sides: one period of it, and three.
+TEST(PeriodicContact, OfSurfacesIsThatOfALongBody) {
+  constexpr int cells = 6;
+  Parts parts;
+  parts.blocks.clear();
+  for (const std::string name : {"bar", "plate"}) {
+    parts.blocks += section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon Factor", "1.75") +
+                                      key("Separate Body", "true"));
+  }
+  parts.contact =
+      section("Models", section("m", key("Contact Model", "Surface") + key("Friction Coefficient", "0.3"))) +
+      section("Interactions", section("General Contact", key("Contact Model", "m")));
+  parts.verlet = key("Fixed dt", "2e-8");
+  parts.times = key("Final Time", "6e-6");
+  const std::string start = along("down", "Initial Velocity", "plate", "z", "-60*(1 + 0.5*sin(1047.1975511966*x))") +
+                            along("along", "Initial Velocity", "plate", "x", "200") +
+                            plane("wall", "Rigid Plane", "bar", "0 0 0", "0 0 1");
+  std::vector<std::vector<Vector>> found;
+  for (const int periods : {1, 3}) {
+    const RunFolder folder(Lattice{.nx = cells * periods, .ny = 3, .nz = 5, .plate_layers = 2});
+    parts.conditions = start + sides("x", "0", std::to_string(cells * periods) + "e-3");
+    found.push_back(run_of(folder, parts));
+  }
+  double most = 0, struck = 0;
+  for (std::size_t i = 0; i < found[1].size(); ++i) {
+    const std::size_t line = i / (3 * cells), place = i % cells;
+    most = std::max(most, (found[0][line * cells + place] - found[1][i]).norm());
+    if (line < 9) struck = std::max(struck, std::abs(found[1][i][0]));  // of the lower bar, by friction
+  }
+  if (found[1].empty()) return;  // other ranks
+  EXPECT_GT(struck, 1e-5);
+  EXPECT_LT(most, 1e-9 * struck);  // places are rounded otherwise by the period, which friction and flow let grow
+}
+
 // ---- Elastic constants ---------------------------------------------------------------------------------------------
 
 // A block that repeats in all directions is without surfaces: stretched along x it has the stresses of Hooke's law with
@@ -201,7 +236,7 @@ TEST(PeriodicContact, MeetsTheImageBehindTheSide) {
   for (const std::string& contact : {contact_by(penalty, pair, "1.1e-3", "0.3"), contact_by(penalty, pair, "1.1e-3")}) {
     const std::vector<Vector> across = meeting(true, contact), there = meeting(false, contact);
     if (across.empty()) continue;  // other ranks
-    double moved = 0;  // of the struck block
+    double moved = 0;              // of the struck block
     for (std::size_t i = 0; i < there.size() / 2; ++i) moved = std::max(moved, there[i].norm());
     EXPECT_GT(moved, 1e-4);
     EXPECT_LT(difference(across, there), 1e-9);  // places are rounded otherwise by the period
