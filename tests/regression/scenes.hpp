@@ -1,5 +1,5 @@
-// Small scenes that together have every formulation, contact, damage, tools, heat, viscosity, substeps, periodic sides
-// and equilibria: what must hold whatever a run does.
+// Small scenes that together have every formulation, contact, damage, tools, heat, viscosity, substeps and equilibria:
+// what must hold whatever a run does.
 #pragma once
 
 #include <string>
@@ -91,10 +91,6 @@ inline std::vector<AnyScene> all_scenes() {
   press.verlet = key("Number of Load Steps", "5") + key("Tolerance", "1e-6");
   Parts heavier = impact_of_scenes(plastic, flow, elastic, "", "", surface);
   heavier.verlet += key("Mass Scaling dt", "60e-9") + key("Most Added Mass", "10");
-  Parts periodic = impact_of_scenes(plastic, flow + viscosity + key("Formulation", "Quadratic Correspondence"), elastic,
-                                    "", "", surface);
-  periodic.conditions += section(
-      "sides", key("Type", "Periodic Sides") + key("Coordinate", "y") + key("Lower", "0") + key("Upper", "4e-3"));
   return {{"Correspondence", impact_of_scenes(plastic, flow + viscosity, elastic, "", "", surface)},
           {"Points", impact_of_scenes(plastic, flow + viscosity, "Elastic Correspondence", "", "", of_points)},
           {"Quadratic", impact_of_scenes(plastic, flow + viscosity + key("Formulation", "Quadratic Correspondence"),
@@ -107,7 +103,6 @@ inline std::vector<AnyScene> all_scenes() {
            impact_of_scenes(plastic, flow + heating + key("Stabilization", "Silling"), elastic, "", broken, surface),
            model("Plastic Strain", key("Failure Strain", "0.02") + key("Fracture Energy", "10e3"))},
           {"Heavier", heavier},
-          {"Periodic", periodic},
           {"Equilibria", press, "", true}};
 }
 
