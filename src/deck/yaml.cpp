@@ -134,7 +134,9 @@ std::optional<List> parse_yaml(const std::string& text, Problems& problems) {
   const bool put_into_one = !has_one_outermost_key(text);
   try {
     const auto yaml = Teuchos::getParametersFromYamlString(put_into_one ? within_one_key(text) : text);
-    return read_list(*yaml, "", problems);
+    List deck = read_list(*yaml, "", problems);
+    if (!put_into_one) deck.name = yaml->name();  // "Peridigm", say
+    return deck;
   } catch (const std::exception& error) {
     add_syntax_error(error.what(), put_into_one, problems);
   }

@@ -167,7 +167,8 @@ class ExpressionParser {
   void declaration(bool whole) {
     const std::string fresh = name();
     if (place_of(fresh) >= 0 || function_of(fresh) >= 0) fail("the name '" + fresh + "' is taken");
-    if (variables_.size() == Expression::most_variables) fail("too many variables");
+    if (variables_.size() == Expression::most_variables)
+      fail("too many variables: " + std::to_string(Expression::most_variables - 5) + " may be declared");
     variables_.push_back({fresh, whole});
     emit(Do::push_number);
     emit(Do::pop_variable, static_cast<int>(variables_.size()) - 1);  // 0, also if a branch is not taken

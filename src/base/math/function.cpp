@@ -28,7 +28,7 @@ std::optional<double> as_number(const std::string& text) {
 std::string shortened(const std::string& text) {
   constexpr std::size_t longest = 200;
   std::string shown = text.substr(0, longest);
-  for (char& c : shown) c = std::iscntrl(static_cast<unsigned char>(c)) != 0 ? '?' : c;
+  for (char& c : shown) c = c == '\n' ? ' ' : std::iscntrl(static_cast<unsigned char>(c)) != 0 ? '?' : c;
   return text.size() <= longest ? shown : shown + "…";
 }
 

@@ -162,7 +162,7 @@ bool has_peridigms_solver(List& deck) {
   const auto is_theirs = [](List& solver) {
     List* slow = find_list(solver, "QuasiStatic");
     return find_list(solver, "NOXQuasiStatic") || find_list(solver, "Implicit") ||
-           find_parameter(solver, "Peridigm Preconditioner") ||
+           find_list(solver, "ImplicitDiffusion") || find_parameter(solver, "Peridigm Preconditioner") ||
            (slow && has_any(*slow, {"Absolute Tolerance", "Relative Tolerance", "Belos Linear Solver",
                                     "Disable Heuristics", "Time Steps"}));
   };
@@ -184,7 +184,8 @@ bool has_peridigms_output(List& deck) {
 bool is_peridigms(List& deck) {
   const auto section = [&](const char* name) { return find_list(deck, name); };
   List* mesh = section("Discretization");
-  return section("Compute Class Parameters") || has_peridigms_output(deck) || has_peridigms_solver(deck) ||
+  return deck.name == "Peridigm" || has_missing_ability(deck) || section("Compute Class Parameters") ||
+         has_peridigms_output(deck) || has_peridigms_solver(deck) ||
          (mesh && has_any(*mesh, {"Omit Bonds Between Blocks", "Store Exodus Mesh"})) ||
          any_section_has(section("Materials"),
                          {"Hourglass Coefficient", "Apply Shear Correction Factor", "Enable Flaw", "Disable Plasticity",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "deck/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
 
 namespace strut::deck {
@@ -13,6 +14,8 @@ const std::string associated =
     "gradients of a bond's own neighborhood (bond-associated) are not there; "
     "'Quadratic Correspondence' (Formulation) has no zero-energy modes either";
 const std::string of_plasticity = "; plasticity is there by correspondence: 'Elastic Plastic Correspondence'";
+
+const std::string no_heat_or_species = "no heat and no species flow here";
 
 const std::map<std::string, std::string> missing_laws = {
     {"Elastic Plastic",
@@ -30,7 +33,7 @@ const std::map<std::string, std::string> missing_laws = {
     {"Linear LPS Partial Volume", "partial volumes of neighbors are not there; 'Elastic' takes whole ones"},
     {"Elastic Partial Volume", "partial volumes of neighbors are not there; 'Elastic' takes whole ones"},
     {"Elastic Correspondence Partial Stress", "partial stresses are not there; 'Elastic Correspondence' is"},
-    {"Diffusion", "no heat and no species flow here"},
+    {"Diffusion", no_heat_or_species},
     {"Vector Poisson", "no fields but motion are computed here"},
     {"LCM", "laws of another library cannot be called"},
     {"Elastic Hypoelastic Correspondence", associated},
@@ -68,6 +71,19 @@ std::string missing_condition(const std::string& type) {
   if (holds("fluid") || holds("concentration") || holds("pressure")) return no_species;
   return "";
 }
+
+// Solvers, also as sections of Solver.
+const std::map<std::string, std::string> missing_solvers = {
+    {"Implicit",
+     "implicit dynamics (Newmark's method) is not there; there are 'Verlet', and 'QuasiStatic' for loads without "
+     "inertia"},
+    {"ImplicitDiffusion", no_heat_or_species},
+};
+
+const std::map<std::string, std::string> missing_contact = {
+    {"Time-Dependent Short Range Force", "a friction that changes with time is not there; 'Short Range Force' has one"},
+    {"Time Dependent Short Range Force", "a friction that changes with time is not there; 'Short Range Force' has one"},
+};
 
 const std::map<std::string, std::string> missing_sections = {
     {"Interfaces", "there are no interfaces between elements"},
@@ -118,6 +134,52 @@ void refuse_damage(List& deck, Problems& problems) {
   }
 }
 
+void refuse_contact(List& deck, Problems& problems) {
+  List* contact = find_list(deck, "Contact");
+  List* models = contact ? find_list(*contact, "Models") : nullptr;
+  if (!models) return;
+  for (List& model : models->lists) {
+    const auto missing = missing_contact.find(value_of(model, "Contact Model"));
+    if (missing == missing_contact.end()) continue;
+    problems.add("Contact > Models > " + model.name + " > Contact Model",
+                 "'" + missing->first + "': " + missing->second);
+    find_parameter(model, "Contact Model")->value = "Short Range Force";
+    erase_parameter(model, "Friction Coefficient");
+  }
+}
+
+// With the keys that choose among fields that are not there. Explicit steps stand in for a missing solver.
+void refuse_solvers(List& deck, Problems& problems) {
+  erase_parameter(deck, "Multiphysics");
+  for (List& solver : deck.lists) {
+    if (!solver.name.starts_with("Solver")) continue;
+    std::erase_if(solver.parameters, [](const Parameter& one) { return one.name.starts_with("Solve For "); });
+    for (const auto& [name, why] : missing_solvers) {
+      List* missing = find_list(solver, name);
+      if (!missing) continue;
+      problems.add(path_to(solver.name, name), why);
+      *missing = {"Verlet", {{"Safety Factor", "double", "0.8"}}, {}};
+    }
+  }
+}
+
+// A horizon that is an expression, and the default one of a block that has none.
+void refuse_horizons(List& deck, Problems& problems) {
+  List* blocks = find_list(deck, "Blocks");
+  if (!blocks) return;
+  for (List& block : blocks->lists) {
+    const std::string horizon = value_of(block, "Horizon");
+    const bool is_function = horizon.find_first_of("xyz") != std::string::npos;
+    if (!is_function || to_real(horizon)) continue;
+    problems.add("Blocks > " + block.name + " > Horizon",
+                 "'" + horizon +
+                     "': a horizon that varies within a block is a number of spacings here, Horizon Factor, and no "
+                     "function of position");
+    erase_parameter(block, "Horizon");
+    block.parameters.push_back({"Horizon Factor", "double", "3"});
+  }
+}
+
 void refuse_conditions(List& deck, Problems& problems) {
   List* conditions = find_list(deck, "Boundary Conditions");
   if (!conditions) return;
@@ -149,11 +211,20 @@ void refuse_sections(List& deck, Problems& problems) {
 
 }  // namespace
 
+bool has_missing_ability(List& deck) {
+  List* materials = find_list(deck, "Materials");
+  const auto is_missing = [](const List& one) { return missing_laws.contains(value_of(one, "Material Model")); };
+  return find_list(deck, "Data Loader") || (materials && std::ranges::any_of(materials->lists, is_missing));
+}
+
 void refuse_what_is_missing(List& deck, Problems& problems) {
   refuse_sections(deck, problems);
   refuse_laws(deck, problems);
   refuse_damage(deck, problems);
   refuse_conditions(deck, problems);
+  refuse_contact(deck, problems);
+  refuse_solvers(deck, problems);
+  refuse_horizons(deck, problems);
 }
 
 }  // namespace strut::deck

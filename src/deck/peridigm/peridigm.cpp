@@ -53,10 +53,18 @@ void drop_what_is_off(List& material, const std::string& path, Problems& problem
   }
 }
 
-// Without a flaw, the parameters of the flaw have no effect.
+// Without a flaw its parameters have no effect, and an error about the flaw is enough.
 void drop_flaw(List& material) {
-  if (tidied(value_of(material, "Enable Flaw")) != "false") return;
+  if (!find_parameter(material, "Enable Flaw")) return;
   std::erase_if(material.parameters, [](const Parameter& one) { return one.name.starts_with("Flaw "); });
+}
+
+// Only laws by correspondence read it.
+void drop_hourglass(List& material, const std::string& path, Problems& problems) {
+  const std::string model = value_of(material, "Material Model"), key = "Hourglass Coefficient";
+  if (!find_parameter(material, key) || model.ends_with("Correspondence") || model.empty()) return;
+  erase_parameter(material, key);
+  problems.note(path_to(path, key), "has no effect, as in Peridigm: '" + model + "' has no zero-energy modes");
 }
 
 // Peridigm's spring acts along the bond, with 18 K C/(π δ⁴) over the bond's length; ours acts on the whole residual,
@@ -113,6 +121,7 @@ void translate_materials(List& deck, Problems& problems) {
     const std::string path = "Materials > " + material.name;
     translate_isotropic_hardening(material);
     translate_disabled_plasticity(material, path, problems);
+    drop_hourglass(material, path, problems);
     translate_hourglass(material, path, problems);
     drop_flaw(material);
     drop_what_is_off(material, path, problems);

@@ -27,6 +27,8 @@ void read_as_peridigm(List& deck, const std::filesystem::path& folder, Problems&
 // Reports sections, laws and conditions that do not exist here, each once, and takes them and their keys out of the
 // deck.
 void refuse_what_is_missing(List& deck, Problems& problems);
+// True for laws and sections that only decks of Peridigm name.
+bool has_missing_ability(List& deck);
 
 // Converts the solvers for equilibria, and Solver1, Solver2 … of Peridigm's decks.
 void translate_solvers(List& deck, bool is_theirs, Problems& problems);

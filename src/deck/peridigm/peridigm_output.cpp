@@ -140,8 +140,9 @@ std::string without_axes(const std::string& name) {
 bool is_missing(const std::string& name, bool is_theirs) {
   const std::string whole = without_axes(name);
   return missing_fields.contains(name) ||
-         (is_theirs && (name == "Temperature" || among(other_missing_fields, name) ||
-                        among(other_missing_fields, whole) || (whole != name && among(tensors, whole))));
+         (is_theirs &&
+          (name == "Temperature" || name.starts_with("Lagrange_Multiplier_") || among(other_missing_fields, name) ||
+           among(other_missing_fields, whole) || (whole != name && among(tensors, whole))));
 }
 
 // "Cauchy_StressXY" is a component of Cauchy_Stress, which is written as a whole.

@@ -77,9 +77,11 @@ void read_numbers(std::vector<NodeSet>& sets, Problems& problems) {
     const auto numbers = fs::is_regular_file(set.file) ? numbers_in(without_comments(file)) : std::nullopt;
     set.numbers = numbers.value_or(std::vector<int>());
     if (!set.numbers->empty()) continue;
+    const std::string text = set.file.filename().string();
+    const bool from_zero = text.find_first_not_of("0123456789 \t\n") == std::string::npos;
     problems.add(path_to(boundary_conditions, set.name),
-                 "'" + set.file.filename().string() +
-                     "' is neither a list of numbers, the first 1, nor a file of them in the deck's folder");
+                 "'" + text + "' is neither a list of numbers, the first 1, nor a file of them in the deck's folder" +
+                     (from_zero ? "; numbers from 0, as in the oldest decks of Peridigm, are one too small here" : ""));
   }
 }
 

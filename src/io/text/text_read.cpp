@@ -80,8 +80,10 @@ class TextFile {
     for (std::string word; stream >> word;) words.push_back(word);
     if (words[0] != "header:") return false;
     if (words == std::vector<std::string>{"header:", "x", "y", "z", "block_id", "volume"}) return true;
-    throw Error(path_.string() + ", line " + std::to_string(number_) +
-                ": expected the columns x y z block_id volume: \"" + content.substr(0, 120) + "\"");
+    const bool is_flat = std::ranges::find(words, "z") == words.end();
+    throw Error(path_.string() + ", line " + std::to_string(number_) + ": " +
+                (is_flat ? "two-dimensional problems are not there; " : "") +
+                "expected the columns x y z block_id volume, no more: \"" + content.substr(0, 120) + "\"");
   }
 
   std::filesystem::path path_;

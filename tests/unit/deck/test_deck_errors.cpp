@@ -132,7 +132,7 @@ const std::vector<Case> names = {
     {"SetOfNeitherNumbersNorFile", R"(<ParameterList name="flight">)",
      R"(<Parameter name="Min X Node Set" type="string" value="0 3"/><ParameterList name="flight">)",
      "Boundary Conditions > Min X Node Set: '0 3' is neither a list of numbers, the first 1, nor a file of them in the "
-     "deck's folder"},
+     "deck's folder; numbers from 0, as in the oldest decks of Peridigm, are one too small here"},
     {"NoHorizon", R"(<Parameter name="Horizon" type="double" value="0.01"/>)", "",
      "Blocks > plate > Horizon: missing; expected a real number > 0, in m, or 'Horizon Factor' in its place"},
     {"TwoHorizons", R"(<Parameter name="Horizon" type="double" value="0.01"/>)",

@@ -259,7 +259,9 @@ TEST(DeckOfPeridigm, WhatIsMissingIsNamed) {
   for (const std::string named :
        {"Materials > copper > Thermal Expansion Coefficient: '1e-5'; expected 0: there is no thermal expansion",
         "Boundary Conditions > heat > Type: 'Prescribed Temperature': no heat flows here",
-        "Solver > Implicit: unknown section; there are 'Verlet', and 'QuasiStatic' for loads without inertia",
+        "Solver > Implicit: implicit dynamics (Newmark's method) is not there; there are 'Verlet', and 'QuasiStatic' "
+        "for "
+        "loads without inertia",
         "Blocks > foam > Damage Model: 'crack' is not defined; expected the name of a section of Damage Models: "
         "brittle",
         "Damage Models > brittle > Damage Model: 'Interface Aware': bonds across an interface"}) {
@@ -283,6 +285,35 @@ TEST(DeckOfPeridigm, WhatIsMissingIsNamedOnce) {
   for (const char* named :
        {"Interfaces: unknown section; there are no interfaces", "Materials > copper > Material Model: 'Pals': ",
         "Boundary Conditions > hot > Type: 'Thermal Flux': no heat flows here"}) {
+    EXPECT_NE(error.find(std::string("\n  ") + named), std::string::npos) << named << "\nin " << error;
+  }
+}
+
+// What else a deck says about fluxes, flaws, friction in time and horizons in space makes no problems of its own.
+TEST(DeckOfPeridigm, WhatHangsOnSomethingMissingIsNoProblemOfItsOwn) {
+  const DeckFolder folder;
+  std::string text = changed(small_deck, R"("Elastic Plastic Correspondence")", R"("Diffusion")");
+  text = changed(text, horizon, key("Horizon", "string", "0.006 + 0.1*x"));
+  const std::string friction = "if (t > 1) { value = 1; } else { value = 0; }";
+  const std::string contact =
+      list("Contact", list("Models", list("touch", key("Contact Model", "string", "Time-Dependent Short Range Force") +
+                                                       key("Contact Radius", "double", "2e-3") +
+                                                       key("Spring Constant", "double", "1e9") +
+                                                       key("Friction Coefficient", "string", friction))) +
+                          list("Interactions", list("General Contact", key("Contact Model", "string", "touch"))));
+  text = changed(text, R"(<Parameter name="Final Time" type="double" value="2e-4"/>)",
+                 key("Final Time", "double", "2e-4") + key("Solve For Temperature", "bool", "true") +
+                     list("ImplicitDiffusion", key("Number of Load Steps", "int", "1")));
+  text = changed(text, R"(<ParameterList name="Solver">)",
+                 key("Multiphysics", "bool", "true") + contact +
+                     output("Output1", "1", {"Flux_Divergence", "Velocity"}) + R"(<ParameterList name="Solver">)");
+  const std::string error = folder.error(text);
+  EXPECT_TRUE(error.starts_with("deck.xml: 4 problems\n")) << error;
+  for (const char* named :
+       {"Materials > copper > Material Model: 'Diffusion': no heat and no species flow here",
+        "Solver > ImplicitDiffusion: no heat and no species flow here",
+        "Blocks > foam > Horizon: '0.006 + 0.1*x': a horizon that varies within a block is a number of spacings",
+        "Contact > Models > touch > Contact Model: 'Time-Dependent Short Range Force': a friction that changes"}) {
     EXPECT_NE(error.find(std::string("\n  ") + named), std::string::npos) << named << "\nin " << error;
   }
 }
@@ -516,6 +547,14 @@ TEST(DeckOfPeridigm, YamlNeedsNoKeyAroundAll) {
             "deck.xml: 1 problem\n  line 4 column 1: Parameter \"Final Time\" is given twice; expected once");
 }
 
+// "Peridigm:" around all says whose deck it is, though nothing else does.
+TEST(DeckOfPeridigm, TheOutermostKeyOfYamlSaysWhoseDeckItIs) {
+  const DeckFolder folder;
+  const std::string named = fracturing, other = changed(named, "Peridigm:", "Glass:");
+  EXPECT_TRUE(folder.read(named).from_peridigm);
+  EXPECT_FALSE(folder.read(other).from_peridigm);
+}
+
 TEST(DeckOfPeridigm, YamlIsReadAsXml) {
   const DeckFolder folder;
   const Deck deck = folder.read(fracturing);
@@ -528,6 +567,21 @@ TEST(DeckOfPeridigm, YamlIsReadAsXml) {
   const DiskCrack disk = std::get<DiskCrack>(deck.discretization.cracks[0]);
   EXPECT_EQ(disk.normal, Vector::UnitZ());
   EXPECT_EQ(disk.radius, 0.2);
+}
+
+// PeriLab's lists of points begin with a line that names their column.
+TEST(DeckOfPeriLab, ItsSetsOfPointsAreRead) {
+  const DeckFolder folder;
+  folder.write("ns.txt", "header: global_id\n1\n2\n11\n12\n");
+  const std::string conditions =
+      list("Boundary Conditions",
+           key("Node Set 1", "string", "ns.txt") +
+               list("fly", key("Type", "string", "Initial Velocity") + key("Node Set", "string", "Node Set 1") +
+                               key("Coordinate", "string", "x") + key("Value", "string", "1")));
+  const Deck deck = folder.read(
+      changed(small_deck, R"(<ParameterList name="Solver">)", conditions + R"(<ParameterList name="Solver">)"));
+  ASSERT_EQ(deck.node_sets.size(), 1u);
+  EXPECT_EQ(deck.node_sets[0].numbers, (std::vector{1, 2, 11, 12}));
 }
 
 TEST(DeckOfPeridigm, ThoseOfOthersAreNamedInOneLine) {

@@ -315,6 +315,26 @@ TEST(Text, BlocksAreNamedByTheirNumbers) {
   EXPECT_EQ(whole.ids, (std::vector<std::int64_t>{0, 1, 2}));
 }
 
+// PeriLab's lists begin with a line that names the columns.
+TEST(Text, PeriLabsListsOfPointsAreRead) {
+  const Communicator world;
+  const TemporaryFolder folder(world);
+  run_on_root(world, [&] {
+    std::ofstream(folder / "mesh.txt") << "header: x y z block_id volume\n"
+                                          "0.0 0.0 0.5 1 1.0E-02\n"
+                                          "0.1 0.0 0.5 2 2.0E-02\n"
+                                          "0.1 0.1 0.5 1 1.0E-02\n";
+  });
+  const PointCloud mine = read_text(folder / "mesh.txt", world);
+  EXPECT_EQ(mine.block_names, (std::vector<std::string>{"block_1", "block_2"}));
+  const PointCloud whole = gathered(mine, world);
+  if (world.rank() != 0) return;
+  EXPECT_EQ(whole.element_ids, (std::vector<std::int64_t>{1, 2, 3}));  // the header has no number
+  EXPECT_EQ(whole.blocks, (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(whole.volumes, (std::vector<double>{0.01, 0.02, 0.01}));
+  EXPECT_EQ(whole.positions[2], Vector(0.1, 0.1, 0.5));
+}
+
 TEST(History, KeepsAllDigitsAndEveryRow) {
   const Communicator world;
   const TemporaryFolder folder(world);

@@ -296,6 +296,11 @@ TEST_F(BrokenFile, TextNamesTheLine) {
       {"0 inf 0 1 1\n", "'inf'"},
       {"0 1e999 0 1 1\n", "'1e999'"},
       {"0 0 0 1 1 7\n", "found 6"},
+      {"header: x y block_id volume\n0 0 1 1\n",
+       "line 1: two-dimensional problems are not there; expected the columns"},
+      {"header: x y z block_id volume Angles\n0 0 0 1 1 7\n",
+       "line 1: expected the columns x y z block_id volume, no "
+       "more"},
       {"# nothing\n", "no points"},
       {"", "no points"},
   };
