@@ -112,7 +112,7 @@ double kinetic_energy_of_tools(const Conditions& conditions) {
 void serialize_tools(Archive& archive, Conditions& conditions, int owned) {
   conditions.visit([&]<class Type>(Type& one) {
     if constexpr (Type::in_equilibria == InEquilibria::tool) {
-      if (one.free) one.free->serialize(archive, "tool_" + std::to_string(one.reaction_place), owned);
+      one.serialize(archive, "tool_" + std::to_string(one.reaction_place), owned);
     }
   });
 }

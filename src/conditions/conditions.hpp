@@ -65,8 +65,8 @@ void check_equilibria_possible(const Conditions& conditions);
 // Held directions in the load step from t over dt (s), for points that are at its start.
 std::vector<HeldDirection> held_directions(const Conditions& conditions, const Body& body, double t, double dt);
 
-// Tools with a mass: their kinetic energy (J), the same on all ranks; their state in a checkpoint, at the group of all
-// owned points.
+// The kinetic energy of tools with a mass (J), the same on all ranks; the state of all tools in a checkpoint, at the
+// group of all owned points.
 double kinetic_energy_of_tools(const Conditions& conditions);
 void serialize_tools(Archive& archive, Conditions& conditions, int owned);
 

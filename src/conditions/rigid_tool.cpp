@@ -125,11 +125,17 @@ void RigidTool::set_reaches(double t, const Body& body) {
   if (domain.cloud.at == PointsAt::nodes) return;
   auto all = std::make_shared<std::vector<double>>(body.owned(), 0);
   for (const int i : points) {
-    const Surface at = surface(shape, domain.reference(i) - offset(t));
+    const Surface at = surface(shape, domain.current(i) - offset(t));
     const double reach = reach_of_cell(domain.cloud, domain.volume(i), i, -at.normal);
     (*all)[i] = std::clamp(at.gap, 0.0, reach);
   }
   reaches = std::move(all);
+}
+
+// The cells where the run began, and a free motion.
+void RigidTool::serialize(Archive& archive, const std::string& name, int owned) {
+  if (reaches) archive.field(name + "_reach", 1, [this](std::size_t i, int) -> double& { return (*reaches)[i]; });
+  if (free) free->serialize(archive, name, owned);
 }
 
 // The velocity V of the tool and the impulse J(V) that it gives to the points depend on each other: V = V* − J(V)/M.

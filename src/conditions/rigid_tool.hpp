@@ -28,7 +28,7 @@ struct RigidTool {
   std::shared_ptr<FreeMotion> free = {};
   bool in_whole_steps = true;
   // Reach of the cells of all owned points, m. Null: the tool meets the points themselves.
-  std::shared_ptr<const std::vector<double>> reaches = {};
+  std::shared_ptr<std::vector<double>> reaches = {};
   // True if it has met a point of this rank; shared with its parts for substeps and its copies.
   std::shared_ptr<bool> touched = std::make_shared<bool>(false);
 
@@ -41,9 +41,10 @@ struct RigidTool {
     if (reaches) at.gap -= (*reaches)[i];
     return at;
   }
-  // Sets the reaches, from the body as it was read and the tool at time t (s): cells that would overlap it there end at
+  // Sets the reaches, from the body as it begins and the tool at time t (s): cells that would overlap it there end at
   // its surface. Nodes have none, because those at a surface lie on it.
   void set_reaches(double t, const Body& body);
+  void serialize(Archive& archive, const std::string& name, int owned);  // at the group of all owned points
 
   static constexpr Stage stage = Stage::tools;
   static constexpr double Work::*ledger_entry = &Work::tools;

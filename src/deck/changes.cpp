@@ -69,16 +69,83 @@ bool is_load(const std::string& path, const Texts& now) {
   return type == "Prescribed Velocity" || type == "Body Force";
 }
 
+std::set<std::string> paths_of(const Texts& some, const Texts& others) {
+  std::set<std::string> paths;
+  for (const auto& [path, text] : some) paths.insert(path);
+  for (const auto& [path, text] : others) paths.insert(path);
+  return paths;
+}
+
+// ---- Start From
+
+// Where and how the points of a body begin, and what holds between them: another body would not be in equilibrium with
+// the stress that it gets. The mesh itself is compared point by point.
+constexpr std::array of_the_body = {"Discretization > Points",
+                                    "Discretization > Influence Function",
+                                    "Discretization > NeighborhoodType",
+                                    "Discretization > Bond Filters",
+                                    "Materials",
+                                    "Blocks"};
+
+bool is_of_the_body(const std::string& path, const Texts& other) {
+  if (path.ends_with(" > Damage Model")) return other.contains(path);  // whole bonds may break from now on
+  return std::any_of(of_the_body.begin(), of_the_body.end(), [&](const char* one) { return is_within(path, one); });
+}
+
+// Symmetry planes and periodic sides, which make images of the points: their keys in one text each, without names.
+std::map<std::string, std::string> images(const Texts& texts) {
+  std::map<std::string, std::string> names;  // by the keys
+  for (const auto& [path, type] : texts) {
+    const std::string parent = "Boundary Conditions > ", end = " > Type";
+    if (!path.starts_with(parent) || !path.ends_with(end)) continue;
+    if (type != "Symmetry Plane" && type != "Periodic Sides") continue;
+    const std::string name = path.substr(0, path.size() - end.size());
+    std::string keys;
+    for (const auto& [key, text] : texts) {
+      if (key != name && is_within(key, name) && !key.ends_with(" > Stretch"))
+        keys += key.substr(name.size()) + " " + text;
+    }
+    names[keys] = name;
+  }
+  return names;
+}
+
+void compare_images(const Texts& other, const Texts& now, std::vector<std::string>& refused) {
+  const auto before = images(other), after = images(now);
+  for (const auto& [keys, name] : before) {
+    if (!after.contains(keys)) refused.push_back(name + ": not there, or another one, now");
+  }
+  for (const auto& [keys, name] : after) {
+    if (!before.contains(keys)) refused.push_back(name + ": not there, or another one, before");
+  }
+}
+
 }  // namespace
+
+StartChanges start_changes(const std::string& other_deck, const std::string& deck) {
+  const Texts other = texts_of(other_deck), now = texts_of(deck);
+  StartChanges changes{.after_equilibria = other.contains("Solver > QuasiStatic"),
+                       .same_solver = true,
+                       .same_contact = true,
+                       .same_conditions = true};
+  for (const std::string& path : paths_of(other, now)) {
+    const std::string was = text_at(other, path), is = text_at(now, path);
+    if (was == is) continue;
+    if (path == "Solver > QuasiStatic" || (is_within(path, "Solver > Verlet") && path != "Solver > Verlet > Rebalance"))
+      changes.same_solver = false;
+    if (is_within(path, "Contact")) changes.same_contact = false;
+    if (is_within(path, "Boundary Conditions") || is_within(path, "Node Sets")) changes.same_conditions = false;
+    if (is_of_the_body(path, other)) changes.refused.push_back(path + ": " + was + " there, " + is + " here");
+  }
+  compare_images(other, now, changes.refused);
+  return changes;
+}
 
 Changes changes(const std::string& before, const std::string& now) {
   const Texts old_texts = texts_of(before), new_texts = texts_of(now);
-  std::set<std::string> paths;
-  for (const auto& [path, text] : old_texts) paths.insert(path);
-  for (const auto& [path, text] : new_texts) paths.insert(path);
   Changes changes;
   std::string whole;  // a section that only one of both has: of its keys only those that are refused are named
-  for (const std::string& path : paths) {
+  for (const std::string& path : paths_of(old_texts, new_texts)) {
     const std::string was = text_at(old_texts, path), is = text_at(new_texts, path);
     const bool accepted = is_accepted(path, old_texts, new_texts), within = !whole.empty() && is_within(path, whole);
     if (was == is || (within && (accepted || !is_accepted(whole, old_texts, new_texts)))) continue;

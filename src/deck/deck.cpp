@@ -34,6 +34,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   deck.conditions = read_conditions(values, problems);
   check_initial_strains(deck.conditions, deck.materials, problems);
   add_numbered_sets(values, file, deck.node_sets, problems);
+  deck.start_from = read_start_from(values);
   deck.solver = read_solver(values, problems);
   deck.next_solver = read_next_solver(values, deck.solver, problems);
   const bool steps_follow = deck.next_solver.has_value();
@@ -75,6 +76,7 @@ std::vector<ReadFile> read_files(const Deck& deck) {
   for (const NodeSet& set : deck.node_sets) {
     if (!set.file.empty()) read.push_back({"the file of node set '" + set.name + "'", set.file});
   }
+  if (deck.start_from) read.push_back({"the checkpoint of Start From", deck.start_from->checkpoint});
   return read;
 }
 

@@ -20,6 +20,7 @@
 #include "deck/sections/output.hpp"
 #include "deck/sections/restart.hpp"
 #include "deck/sections/solver.hpp"
+#include "deck/sections/start_from.hpp"
 #include "deck/sections/watch.hpp"
 
 namespace strut {
@@ -39,6 +40,7 @@ struct Deck {
   std::vector<ContactModel> contact_models;
   std::vector<Interaction> interactions;
   std::vector<Condition> conditions;
+  std::optional<StartFrom> start_from;
   Solver solver;
   std::optional<Solver> next_solver;  // explicit steps after the equilibria of `solver`
   Output output;
@@ -56,7 +58,8 @@ Deck read(const std::filesystem::path& file, const Communicator& communicator);
 // false. Throws if the file is no deck at all.
 Deck read(const std::filesystem::path& file, const Communicator& communicator, Problems& problems);
 
-// The same for a text, of rank 0, as if it stood in `file`; its mesh may be one in memory, and its history without a file.
+// The same for a text, of rank 0, as if it stood in `file`; its mesh may be one in memory, and its history without a
+// file.
 Deck read_text(std::string text, const std::filesystem::path& file, const Communicator& communicator,
                Problems& problems);
 

@@ -12,6 +12,7 @@
 #include "deck/sections/output.hpp"
 #include "deck/sections/restart.hpp"
 #include "deck/sections/solver.hpp"
+#include "deck/sections/start_from.hpp"
 #include "deck/sections/watch.hpp"
 
 namespace strut::deck {
@@ -23,8 +24,8 @@ const Section& schema() {
       .meaning = "",
       .keys = {verbose_without_effect()},
       .sections = {discretization_section(), node_sets_section(), materials_section(), damage_models_section(),
-                   blocks_section(), contact_section(), conditions_section(), solver_section(), next_solver_section(),
-                   output_section(), history_section(), restart_section(), watch_section()},
+                   blocks_section(), contact_section(), conditions_section(), start_from_section(), solver_section(),
+                   next_solver_section(), output_section(), history_section(), restart_section(), watch_section()},
       .hints = {{"Interfaces", "unknown section; there are no interfaces between elements"},
                 {"Problem",
                  "unknown section; this is the oldest layout of Peridigm's decks: its sections belong to the "

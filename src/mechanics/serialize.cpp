@@ -24,11 +24,13 @@ double mark_of_sets(const Body& body) {
   return static_cast<double>(static_cast<std::uint64_t>(all) & digits);
 }
 
+enum class Sets { same, any };
+
 // Collective. Compares the mesh with that of the checkpoint; nothing of it is restored.
-void compare_reference(Archive& archive, const Body& body) {
-  const double own_sets = mark_of_sets(body);
+void compare_reference(Archive& archive, const Body& body, Sets which) {
+  const double own_sets = which == Sets::same ? mark_of_sets(body) : 0;
   double sets = own_sets;
-  archive.number("node_sets", sets);
+  if (which == Sets::same) archive.number("node_sets", sets);
   std::vector<Eigen::Array4d> kept;
   for (int i = 0; i < body.owned(); ++i) kept.push_back(body.domain.sites[i].reference);
   archive.field("reference", 4, [&](std::size_t i, int c) -> double& { return kept[i][c]; });
@@ -55,7 +57,9 @@ std::vector<std::int64_t> ids_of(const Body& body, const std::vector<int>& point
   return ids;
 }
 
-void serialize(Archive& archive, Body& body) {
+namespace {
+
+void serialize(Archive& archive, Body& body, Sets sets) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     archive.number("rigid_motion_" + std::to_string(b), body.blocks[b].in_rigid_motion);
     MaterialBlock& block = body.blocks[b];
@@ -64,11 +68,20 @@ void serialize(Archive& archive, Body& body) {
   }
   const auto owned = body.domain.cloud.ids.begin() + body.owned();
   archive.points("all points", {body.domain.cloud.ids.begin(), owned});
-  compare_reference(archive, body);
+  compare_reference(archive, body, sets);
   archive.field("position", 3, [&](std::size_t i, int c) -> double& { return body.domain.sites[i].current[c]; });
   body.fields.serialize(archive);
+  Vector stretch = body.domain.halo.stretch();  // solvers set it themselves; a run that starts from here compares it
+  for (const Period& period : body.domain.periods) {
+    archive.number(std::string("stretch_") + "xyz"[period.axis], stretch[period.axis]);
+  }
   if (archive.loading()) body.domain.halo.exchange_places(body.domain.sites);
   if (archive.loading()) refit_flowed(body);
 }
+
+}  // namespace
+
+void serialize(Archive& archive, Body& body) { serialize(archive, body, Sets::same); }
+void serialize_for_start(Archive& archive, Body& body) { serialize(archive, body, Sets::any); }
 
 }  // namespace strut

@@ -13,6 +13,7 @@
 #include "run/input.hpp"
 #include "run/report.hpp"
 #include "run/simulation.hpp"
+#include "run/start_from.hpp"
 #include "setup/setup.hpp"
 
 namespace strut {
@@ -114,9 +115,11 @@ void check(const std::filesystem::path& deck_file, const Communicator& communica
   deck::Problems problems;
   const deck::Deck deck = deck::read(deck_file, communicator, problems);
   check_resumption(deck, checkpoint_exists(deck, communicator), true, problems);
+  std::optional<StartState> state = start_state_of(deck, communicator, problems);
   Scene scene = set_up(deck, checked_mesh(deck, problems, communicator), communicator);
   const OutputVariables variables = output_variables_of(deck, scene.body, scene.contact);
-  const std::string scene_text = describe_scene(scene, advice(deck, scene));
+  const std::string started = state ? state->restore(deck, scene) : "";
+  const std::string scene_text = describe_scene(scene, advice(deck, scene)) + started;
   if (communicator.rank() == 0) std::cout << scene_text << std::flush;
   const std::string text = (scene.quasi_static ? check_equilibria(deck, scene) : check_steps(deck, scene)) +
                            memory_and_frame(scene, variables);

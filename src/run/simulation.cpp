@@ -12,6 +12,7 @@
 #include "run/input.hpp"
 #include "run/repartition.hpp"
 #include "run/run_control.hpp"
+#include "run/start_from.hpp"
 #include "setup/setup.hpp"
 
 namespace strut {
@@ -94,7 +95,7 @@ struct Run::Parts {
   bool is_over() { return time() >= deck.solver.final_time; }
 
   void set_up(deck::Problems problems, const InMemory& in_memory, Start start);
-  void make_solver();
+  void make_solver(StartState* state = nullptr);
   void open(Start start);
   void begin();
   bool arrive() { return equilibria ? arrive_at_equilibrium() : arrive_at_step(); }
@@ -115,26 +116,40 @@ struct Run::Parts {
 
 void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Start start) {
   look_at_checkpoint(deck, start, communicator, problems);
+  const bool continued = start == Start::continued && checkpoint_exists(deck, communicator);
+  std::optional<StartState> state;
+  if (!continued) state = start_state_of(deck, communicator, problems);
   scene = strut::set_up(deck, checked_mesh(deck, std::move(problems), communicator, in_memory.mesh), communicator);
-  say(communicator, describe_scene(*scene, advice(deck, *scene)));
+  const std::string started = state ? state->restore(deck, *scene) : "";
+  say(communicator, describe_scene(*scene, advice(deck, *scene)) + started);
   writers.emplace(
       deck, output_variables_of(deck, scene->body, scene->contact));  // checks all names before a file is replaced
   history = in_memory.history;
   writers->history.keep_rows(history);
-  make_solver();
+  make_solver(state ? &*state : nullptr);
   open(start);
 }
 
-void Run::Parts::make_solver() {
+// `state`: of another run, in which the body is already.
+void Run::Parts::make_solver(StartState* state) {
   const deck::Solver& times = deck.solver;
   if (scene->quasi_static) {
     equilibria.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), *scene->quasi_static,
                        times.initial_time, times.final_time, observer(deck, communicator, early_end),
                        std::move(scene->fracture));
+    if (state) state->begin(*equilibria);
     return;
   }
-  steps.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), scene->control,
-                times.initial_time, std::move(scene->fracture));
+  const auto make = [&](auto beginning) {
+    steps.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), scene->control, beginning,
+                  std::move(scene->fracture));
+  };
+  if (state && state->goes_on()) {
+    make(CentralDifference::ToBeRestored());
+    state->go_on(*steps);
+  } else {
+    make(times.initial_time);
+  }
   if (writers->history.has_reactions()) steps->gather_reactions(static_cast<int>(deck.conditions.size()));
 }
 

@@ -130,7 +130,7 @@ void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& co
   for (const deck::Condition& one : deck.conditions) points.push_back(points_of(scene.body.domain.cloud, one.node_set));
   scene.warnings += let_the_last_count(deck, scene.body, points);
   check_contradictions(deck, points, scene.body, problems);
-  scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
+  if (!deck.start_from) scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   scene.warnings += sudden_motions(deck, points, scene.body);
   scene.warnings += sampled_pulses(deck, points, scene.body);
   // Held points: for a body that continues behind a plane as its mirror image, only the points on the plane.
@@ -153,6 +153,24 @@ void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& co
   raise_together(communicator, problems.text(deck.file.string()));
   take_off_what_is_beyond_ends(deck, scene, problems);
   raise_together(communicator, problems.text(deck.file.string()));
+}
+
+void begin_from_here(const deck::Deck& deck, bool with_initial_velocities, Scene& scene,
+                     const Communicator& communicator) {
+  const double t = deck.solver.initial_time;
+  deck::Problems problems;
+  PointsOfConditions points;
+  for (const deck::Condition& one : deck.conditions) {
+    points.push_back(points_of(scene.body.domain.cloud, one.node_set));
+    const auto* initial = std::get_if<InitialVelocity>(&one.kind);
+    if (initial && with_initial_velocities && !deck.next_solver)
+      initial->set_initial_state(points.back(), t, scene.body);
+  }
+  scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
+  raise_together(communicator, problems.text(deck.file.string()));
+  scene.conditions.visit([&]<class Type>(Type& one) {
+    if constexpr (std::is_same_v<Type, RigidTool>) one.set_reaches(t, scene.body);
+  });
 }
 
 }  // namespace strut

@@ -14,4 +14,10 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
 // Collective. Throws Error on all ranks for errors that only mesh and deck together show.
 void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& communicator);
 
+// Collective. The same scene, whose body is now in the state of another run (Start From): gives it initial velocities,
+// unless they are that run's, and tools the surface that they meet. Throws Error on all ranks for displacements that
+// would jump.
+void begin_from_here(const deck::Deck& deck, bool with_initial_velocities, Scene& scene,
+                     const Communicator& communicator);
+
 }  // namespace strut

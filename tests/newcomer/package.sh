@@ -1,6 +1,6 @@
 #!/bin/sh
-# package.sh CPACK BUILD VERSION: the package of Debian that cpack makes of a build states its dependencies, and what is in
-# it runs from a folder that it is unpacked into.
+# package.sh CPACK BUILD VERSION: the package of Debian that cpack makes of a build states its dependencies, apt finds all of
+# them for a system that has no package yet, and what is in it runs from a folder that it is unpacked into.
 cpack=$1 build=$2 version=$3
 . "$(dirname "$0")/folder.sh"
 cd "$folder" || exit 1
@@ -14,6 +14,13 @@ needs=$(dpkg-deb -f "$deb" Depends)
 for package in openmpi-bin python3-numpy libexodusii libtrilinos-tpetra libopenmpi3; do
   case $needs in *$package*) ;; *) fail "it does not depend on $package: $needs" ;; esac
 done
+if command -v apt-get > /dev/null && apt-cache show libexodusii5 > /dev/null 2>&1; then  # apt's lists are here
+  apt-get install --simulate --no-install-recommends -o Dir::State::status=/dev/null "./$deb" > log 2>&1 ||
+    fail "apt cannot install it on a new system"
+  for package in strut libexodusii5 openmpi-bin; do
+    grep -q "^Inst $package " log || fail "apt does not install $package with it"
+  done
+fi
 dpkg-deb -x "$deb" unpacked || { fail "it cannot be unpacked"; exit 1; }
 . "$(dirname "$0")/installed.sh"
 looks_installed unpacked/usr

@@ -28,6 +28,7 @@
 #include "run/input.hpp"
 #include "run/run_control.hpp"
 #include "run/simulation.hpp"
+#include "run/start_from.hpp"
 
 namespace py = pybind11;
 
@@ -224,6 +225,7 @@ std::string problems_of(const std::string& text, const std::string& name, const 
       problems.raise(name);
       return "";
     }
+    start_state_of(deck, ranks, problems);
     checked_mesh(deck, std::move(problems), ranks, mesh);
   } catch (const Error& error) {
     return error.what();

@@ -39,6 +39,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
       length_(control),
       time_(0) {
   loads_change_ = depend_on_time(conditions_, Stage::forces);
+  energies_.start(body_);
   body_.time_levels->clear();
 }
 
@@ -49,7 +50,6 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
   stretch_sides(time_);
   for (MaterialBlock& block : body_.blocks) block.rest_frequency_bound = largest_frequency_bound(body_, block);
   find_rigid_motion(body_);
-  energies_.start(body_);
   start({});
   const double first = length_.wanted(contact_.stiffness());
   if (!std::isfinite(first)) return;
@@ -83,13 +83,13 @@ void CentralDifference::advance_velocity(double final_time) {
   add_loads();
   const double before = length_.previous_dt(), after = length_.dt(), impulse_time = 0.5 * (before + after);
   // Initial velocities belong to the initial time: the first impulse is that of half a step.
-  if (steps() == 0) body_.velocity = predicted_velocities(conditions_, time_, after, body_);
+  if (before == 0) body_.velocity = predicted_velocities(conditions_, time_, after, body_);
   mid_steps_.before = before / (before + after);
   for_each_point(0, body_.owned(), [&](int i) { kick(i, impulse_time); });
   constrain(impulse_time);
   count_work(impulse_time);
   if (mid_steps_.before != 0.5) even_out();
-  if (steps() == 0) energies_.begin_with(ledger());
+  if (!energies_.has_begun()) energies_.begin_with(ledger());
 }
 
 void CentralDifference::advance_position(bool with_diagnostics) {
@@ -296,6 +296,11 @@ Ledger CentralDifference::ledger() { return energies_.ledger(body_, conditions_,
 void CentralDifference::serialize(Archive& archive) {
   strut::serialize(archive, body_);
   if (fracture_) fracture_->serialize(archive, body_);
+  serialize_steps(archive);
+}
+
+void CentralDifference::serialize_steps(Archive& archive) {
+  archive.points("all points", {body_.domain.cloud.ids.begin(), body_.domain.cloud.ids.begin() + body_.owned()});
   multi_stepping_.serialize(archive, body_);
   length_.serialize(archive, body_);
   serialize_tools(archive, conditions_, body_.owned());

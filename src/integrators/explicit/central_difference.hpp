@@ -66,6 +66,8 @@ class CentralDifference {
   // Collective; between advance_position() and advance_velocity(). Saves or restores all that the next steps depend on,
   // including the body. A restored run continues identically to the last bit on the same number of ranks.
   void serialize(Archive& archive);
+  // Collective. The same without the body and its broken bonds.
+  void serialize_steps(Archive& archive);
 
  private:
   void start(const std::vector<std::uint8_t>& pushed);

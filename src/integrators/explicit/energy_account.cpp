@@ -50,6 +50,7 @@ Ledger EnergyAccount::ledger(const Body& body, const Conditions& conditions, con
 
 void EnergyAccount::serialize(Archive& archive) {
   archive.number("put_in", initial_);
+  archive.number("work_has_begun", has_begun_);
   archive.number("largest_energy", largest_);
   const auto serialize = [&archive](const std::string& when, Work& work) {
     archive.share("external_work" + when, work.external);

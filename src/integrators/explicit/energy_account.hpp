@@ -24,8 +24,9 @@ class EnergyAccount {
   // Collective; at the time of the impulses. `dt`: length of the step after it, s.
   Ledger ledger(const Body& body, const Conditions& conditions, const contact::Contact& contact, const MidSteps& steps,
                 double time, double dt);
-  // Counts the energy that the body has at the start as external work.
-  void begin_with(const Ledger& ledger) { initial_ += ledger.gained; }
+  // Counts the energy that the body has at the start as put in before: call it at the first ledger.
+  bool has_begun() const { return has_begun_; }
+  void begin_with(const Ledger& ledger) { initial_ += ledger.gained, has_begun_ = true; }
 
   void serialize(Archive& archive);
 
@@ -33,6 +34,7 @@ class EnergyAccount {
   Work done_;            // J, up to the mid-step before the present time
   ImpulseWork impulse_;  // J, of the impulses at the present time
   double initial_ = 0, largest_ = 0;
+  bool has_begun_ = false;
 };
 
 }  // namespace strut

@@ -48,7 +48,7 @@ void StepLength::estimate(Body& body) {
 void StepLength::choose(double time, double final_time, double contact_stiffness, bool exposed_are_pushed, Body& body) {
   previous_dt_ = dt_;
   const double left = final_time - time;
-  if (left <= 0 && steps_ > 0) {  // no step follows: the final velocities are those around a step of the usual length
+  if (left <= 0 && dt_ > 0) {  // no step follows: the final velocities are those around a step of the usual length
     if (control_.fixed_dt > 0) dt_ = control_.fixed_dt;
     return;
   }
@@ -84,12 +84,12 @@ double StepLength::longest_step(double contact_stiffness, bool bonds_may_break, 
   const double now = critical(contact_stiffness), chosen = control_.safety_factor * now;
   const double since = std::min(chosen, least_chosen_);
   least_chosen_ = estimated ? chosen : since;
-  if (steps_ == 0 || levels_anew_ || dt_ > longest_stay(bonds_may_break) * now) return chosen;
+  if (dt_ == 0 || levels_anew_ || dt_ > longest_stay(bonds_may_break) * now) return chosen;
   return estimated && since >= least_growth * dt_ ? since : dt_;
 }
 
 PresentStep StepLength::present(bool bonds_may_break) const {
-  return {steps_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0,
+  return {dt_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0,
           longest_stay(bonds_may_break) / control_.safety_factor};
 }
 

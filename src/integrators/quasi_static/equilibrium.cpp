@@ -137,6 +137,14 @@ void Equilibrium::add_contact() {
   contact_.add_trial_forces(kinematics, step_way(), body_.force_density);
 }
 
+void Equilibrium::begin_strained() {
+  advance(0, true);
+  mirror_forces_before_ = mirror_forces(body_);
+  add_contact();
+  for (int i = 0; i < body_.owned(); ++i) outer_before_[i] = -body_.domain.volume(i) * body_.force_density[i];
+  committed_.restore_materials(body_);
+}
+
 std::vector<Vector> Equilibrium::step_way() const {
   std::vector<Vector> way(body_.owned());
   for (int i = 0; i < body_.owned(); ++i) way[i] = body_.current(i) - committed_.place(i);
@@ -247,9 +255,15 @@ void Equilibrium::serialize(Archive& archive) {
   if (!archive.loading()) committed_.restore(body_);  // to the last bit, after a trial that was interrupted
   strut::serialize(archive, body_);
   if (fracture_) fracture_->serialize(archive, body_);
+  serialize_search(archive);
+}
+
+void Equilibrium::serialize_search(Archive& archive) {
+  archive.points("all points", {body_.domain.cloud.ids.begin(), body_.domain.cloud.ids.begin() + body_.owned()});
   const auto serialize_field = [&archive](const std::string& name, Field& field) {
     archive.field(name, 3, [&field](std::size_t i, int c) -> double& { return field[i][c]; });
   };
+  serialize_tools(archive, conditions_, body_.owned());
   forces_.resize(body_.owned(), Vector::Zero());
   serialize_field("forces", forces_);
   serialize_field("outer_forces", outer_before_);

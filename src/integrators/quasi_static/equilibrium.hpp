@@ -28,6 +28,10 @@ class Equilibrium {
   // Collective. Computes the forces of the undeformed state. Throws Error if a condition needs inertia.
   Equilibrium(Body& body, Conditions conditions, contact::Contact contact, std::optional<Fracture> fracture = {});
 
+  // Collective. For a body that begins strained: the forces that hold it as it is fade over the first load step, and
+  // their work counts as that of loads.
+  void begin_strained();
+
   // Collective. Begins a load step from t over dt (s), at the committed positions. Throws Error if a value of a
   // condition is not finite.
   void begin(double t, double dt);
@@ -57,6 +61,8 @@ class Equilibrium {
 
   // Collective; after commit(). Saves or restores the body and all else that the next step depends on.
   void serialize(Archive& archive);
+  // Collective. The same without the body and its broken bonds; restores to where the body is.
+  void serialize_search(Archive& archive);
 
   void commit();   // collective; the next step begins at the last trial
   void go_back();  // to the committed state

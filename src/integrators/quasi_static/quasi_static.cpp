@@ -50,7 +50,7 @@ double QuasiStatic::bytes(const Body& body, const QuasiStaticControl& control) {
 
 // Extrapolates: points that moved in the last step continue at their rate.
 void QuasiStatic::extrapolate() {
-  if (steps_ == 0) return equilibrium_.follow_sides();
+  if (last_dt_ == 0) return equilibrium_.follow_sides();
   Body& body = equilibrium_.body();
   const double factor = dt_ / last_dt_;
   for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() += factor * last_step_[i].array();
@@ -108,6 +108,15 @@ Search QuasiStatic::attempt() {
 
 void QuasiStatic::serialize(Archive& archive) {
   equilibrium_.serialize(archive);
+  serialize_steps(archive);
+}
+
+void QuasiStatic::serialize_search(Archive& archive) {
+  equilibrium_.serialize_search(archive);
+  serialize_steps(archive);
+}
+
+void QuasiStatic::serialize_steps(Archive& archive) {
   newton_.serialize(archive);
   Body& body = equilibrium_.body();
   archive.points("motion", {body.domain.cloud.ids.begin(), body.domain.cloud.ids.begin() + body.owned()});
@@ -117,10 +126,16 @@ void QuasiStatic::serialize(Archive& archive) {
   archive.number("dt", dt_);
   archive.number("last_dt", last_dt_);
   archive.number("steps", steps_);
+  archive.number("put_in", put_in_);
   archive.number("external_work", external_);
   archive.number("work_of_tools", by_tools_);
   archive.number("work_of_friction", by_friction_);
   archive.number("largest_energy", largest_energy_);
+}
+
+void QuasiStatic::begin_strained(bool goes_on) {
+  if (!goes_on) equilibrium_.begin_strained();
+  put_in_ += ledger().gained;
 }
 
 bool QuasiStatic::advance() {
@@ -177,8 +192,8 @@ Ledger QuasiStatic::ledger() {
   const double in_contact = body.domain.communicator.sum(contact().energy());
   now.contact = by_friction_ - in_contact;
   // The energy that contact stores counts with the others: where every point is prescribed it is all there is.
-  now.balance(now.elastic + now.dissipated + now.stabilization + in_contact, now.external + now.tools + by_friction_,
-              largest_energy_);
+  now.balance(now.elastic + now.dissipated + now.stabilization + in_contact,
+              put_in_ + now.external + now.tools + by_friction_, largest_energy_);
   return now;
 }
 

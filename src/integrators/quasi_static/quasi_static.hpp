@@ -38,6 +38,11 @@ class QuasiStatic {
   // Collective; between load steps. Saves or restores all that the next ones depend on, including the body. A restored
   // run continues identically to the last bit on the same number of ranks.
   void serialize(Archive& archive);
+  // Collective. The same without the body and its broken bonds.
+  void serialize_search(Archive& archive);
+  // Collective, for a body that begins in the state of another run: its energy counts as put in before. `goes_on`: the
+  // last load step has been restored; else the forces that hold the body fade over the first one.
+  void begin_strained(bool goes_on);
 
   Ledger ledger();                                                                          // collective
   Reactions reactions(int conditions) const { return equilibrium_.reactions(conditions); }  // collective
@@ -48,6 +53,7 @@ class QuasiStatic {
   Search search_from_start(bool with_tangent);
   void extrapolate();
   void commit(const Search& search);
+  void serialize_steps(Archive& archive);
 
   Observer observer_;
   Equilibrium equilibrium_;
@@ -57,7 +63,7 @@ class QuasiStatic {
   double time_, final_time_, longest_, dt_, last_dt_ = 0;
   Field last_step_;  // m, of the last load step
   int steps_ = 0, iterations_ = 0, evaluations_ = 0;
-  double external_ = 0, by_tools_ = 0, by_friction_ = 0, largest_energy_ = 0;
+  double put_in_ = 0, external_ = 0, by_tools_ = 0, by_friction_ = 0, largest_energy_ = 0;
 };
 
 }  // namespace strut

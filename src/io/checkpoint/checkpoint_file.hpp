@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "base/archive.hpp"
 
@@ -24,6 +26,17 @@ void write_checkpoint(const std::filesystem::path& file, const Communicator& com
 // or damaged, the previous one is read if it is good; returns the reason, on rank 0. Throws Error on all ranks if both
 // are missing or damaged, of another version, of other points, or lack something that the snapshot has.
 std::string read_checkpoint(const std::filesystem::path& file, const Communicator& communicator, Snapshot& snapshot);
+
+// Fills what the file of a run of another deck has of the numbers, shares and columns whose names `takes` accepts, as
+// above; the others keep their values. `missing`: those that it should take and the file does not have, on all ranks,
+// columns with their group. Throws Error as above, also if the points of a group are others.
+struct Parts {
+  std::string note;  // on rank 0
+  std::vector<std::string> missing;
+};
+using Takes = std::function<bool(const std::string& name)>;
+Parts read_checkpoint_parts(const std::filesystem::path& file, const Communicator& communicator, const Takes& takes,
+                            Snapshot& snapshot);
 
 // On this rank's disk: true if the file, or the previous one, exists.
 bool checkpoint_is_there(const std::filesystem::path& file);

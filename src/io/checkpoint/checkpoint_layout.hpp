@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/archive.hpp"
 #include "io/check_sum.hpp"
@@ -9,7 +10,7 @@
 namespace strut::io::checkpoint_layout {
 
 // Version of the layout below: increase it with every change of the file's content.
-constexpr int version = 5;
+constexpr int version = 6;
 
 inline std::string name_of_ids(std::size_t group) { return "g" + std::to_string(group) + "_id"; }
 inline std::string name_of(std::size_t group, const std::string& column) {
@@ -22,6 +23,11 @@ inline std::string name_of_number(const std::string& name) { return "number_" + 
 constexpr const char* name_of_sums = "strut_restart_sums";
 // The deck has a checksum of its own: it is read before there is a snapshot to compare with.
 constexpr const char* name_of_deck_sum = "deck_sum";
+// Texts, a name a line, for a reader that wants some of them: the numbers, the groups of points, and the lists in the
+// order of their checksums.
+constexpr const char* name_of_numbers = "numbers";
+constexpr const char* name_of_groups = "groups";
+constexpr const char* name_of_lists = "lists";
 
 inline double sum_of_deck(const std::string& deck) {
   CheckSum sum;
@@ -29,9 +35,13 @@ inline double sum_of_deck(const std::string& deck) {
   return sum.value();
 }
 
-inline std::size_t number_of_lists(const Snapshot& snapshot) {
-  std::size_t lists = snapshot.shares.size();
-  for (const Snapshot::Group& group : snapshot.groups) lists += 1 + group.columns.size();
+inline std::vector<std::string> lists_of(const Snapshot& snapshot) {
+  std::vector<std::string> lists;
+  for (const auto& [name, value] : snapshot.shares) lists.push_back(name_of_share(name));
+  for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
+    lists.push_back(name_of_ids(g));
+    for (const Snapshot::Column& column : snapshot.groups[g].columns) lists.push_back(name_of(g, column.name));
+  }
   return lists;
 }
 

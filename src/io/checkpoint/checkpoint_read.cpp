@@ -2,11 +2,14 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <sstream>
 
 #include "base/build_facts.hpp"
 #include "base/errors.hpp"
 #include "base/files.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "io/check_sum.hpp"
 #include "io/checkpoint/checkpoint_file.hpp"
 #include "io/checkpoint/checkpoint_layout.hpp"
@@ -123,19 +126,39 @@ std::vector<T> dealt(const Communicator& communicator, const std::optional<Netcd
 }
 
 // Collective. Reads the columns of a group: each rank gets a slice and passes it on to the points, so that it never has
-// more than its slice and its points. Returns false if the file has other points.
+// more than its slice and its points. Returns false if the file has other points. `g`: its number in the file.
+template <class IsWanted>
 bool restore(const Communicator& communicator, const std::optional<NetcdfLists>& file, std::size_t g,
-             Snapshot::Group& group) {
+             const IsWanted& is_wanted, Snapshot::Group& group) {
   const Slices slices(communicator, group.ids);
   OnRoot on_root(communicator);
   const auto ids = dealt<std::int64_t>(communicator, file, name_of_ids(g), slices.counts(), 1, on_root);
   for (Snapshot::Column& column : group.columns) {
+    if (!is_wanted(column)) continue;
     const auto rows =
         dealt<double>(communicator, file, name_of(g, column.name), slices.counts(), column.width, on_root);
     slices.rows_from_slices<double>(rows, column.width, column.values);
   }
   on_root.raise();
   return ids == slices.ids();
+}
+
+template <class Get>
+std::vector<double> from_root(const Communicator& communicator, const Get& get) {
+  std::vector<double> values;
+  run_on_root(communicator, [&] { values = get(); });
+  communicator.broadcast(values);
+  return values;
+}
+
+double number(const Communicator& communicator, const std::optional<NetcdfLists>& file, const std::string& name) {
+  return from_root(communicator, [&] { return std::vector<double>{file->number(name_of_number(name))}; })[0];
+}
+
+double share(const Communicator& communicator, const std::optional<NetcdfLists>& file, const std::string& name) {
+  const std::vector<double> of_ranks = from_root(communicator, [&] { return file->reals(name_of_share(name)); });
+  if (of_ranks.size() == static_cast<std::size_t>(communicator.size())) return of_ranks[communicator.rank()];
+  return communicator.rank() == 0 ? std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0) : 0;
 }
 
 // Calls open() for the newest file; if that fails and there is a previous one, for that. If both fail, throws the first
@@ -171,30 +194,133 @@ std::string read_checkpoint(const fs::path& newest, const Communicator& communic
     file.emplace(std::move(found));
   };
   run_on_root(communicator, [&] { open_either(newest, path, open, note); });
-  const auto from_root = [&](const auto& get) {
-    std::vector<double> values;
-    run_on_root(communicator, [&] { values = get(); });
-    communicator.broadcast(values);
-    return values;
-  };
-  for (auto& [name, value] : snapshot.numbers) {
-    value = from_root([&] { return std::vector<double>{file->number(name_of_number(name))}; })[0];
-  }
-  for (auto& [name, value] : snapshot.shares) {
-    const std::vector<double> of_ranks = from_root([&] { return file->reals(name_of_share(name)); });
-    const auto rank = static_cast<std::size_t>(communicator.rank());
-    if (of_ranks.size() == static_cast<std::size_t>(communicator.size())) {
-      value = of_ranks[rank];
-    } else {
-      value = rank == 0 ? std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0) : 0;
-    }
-  }
+  for (auto& [name, value] : snapshot.numbers) value = number(communicator, file, name);
+  for (auto& [name, value] : snapshot.shares) value = share(communicator, file, name);
   bool known = true;
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    known = restore(communicator, file, g, snapshot.groups[g]) && known;
+    const auto all = [](const Snapshot::Column&) { return true; };
+    known = restore(communicator, file, g, all, snapshot.groups[g]) && known;
   }
   raise_together(communicator, known ? "" : path.string() + ": is of another mesh: the ids of its points are others");
   return note;
+}
+
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// A file of a run whose deck may be another one, on rank 0: of its lists, those of a snapshot.
+class PartsOfFile {
+ public:
+  PartsOfFile(const fs::path& path, const NetcdfLists& file)
+      : path_(path),
+        file_(file),
+        groups_(lines_of(file.text(name_of_groups))),
+        lists_(lines_of(file.text(name_of_lists))),
+        sums_(file.reals(name_of_sums)) {
+    CheckSum head;
+    head.add(file.text("deck"));
+    for (const std::string& name : lines_of(file.text(name_of_numbers))) head.add(file.number(name_of_number(name)));
+    if (sums_.size() != 1 + lists_.size() || sums_[0] != head.value()) damaged("its numbers");
+  }
+
+  // The number of the group in the file, −1: it is not there.
+  int group(const std::string& name) const {
+    const auto found = std::find(groups_.begin(), groups_.end(), name);
+    return found == groups_.end() ? -1 : static_cast<int>(found - groups_.begin());
+  }
+  // True if the list is there; throws Error if it is damaged.
+  template <class T>
+  bool has(const std::string& list) const {
+    const auto found = std::find(lists_.begin(), lists_.end(), list);
+    if (found == lists_.end()) return false;
+    if (sums_[1 + (found - lists_.begin())] != sum_of<T>(file_, list)) damaged("'" + list + "'");
+    return true;
+  }
+
+  // Adds what the snapshot asks for and the file does not have; returns the numbers of its groups in the file.
+  std::vector<int> compare(const Snapshot& snapshot, const std::vector<std::int64_t>& counts, const Takes& takes,
+                           std::vector<std::string>& missing) const {
+    for (const auto& [name, value] : snapshot.numbers) {
+      if (takes(name) && !file_.has_number(name_of_number(name))) missing.push_back(name);
+    }
+    for (const auto& [name, value] : snapshot.shares) {
+      if (takes(name) && !has<double>(name_of_share(name))) missing.push_back(name);
+    }
+    std::vector<int> groups;
+    for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
+      groups.push_back(group(snapshot.groups[g].name));
+      compare(snapshot.groups[g], counts[g], groups.back(), takes, missing);
+    }
+    return groups;
+  }
+
+ private:
+  void compare(const Snapshot::Group& group, std::int64_t count, int g, const Takes& takes,
+               std::vector<std::string>& missing) const {
+    if (g >= 0 && has<std::int64_t>(name_of_ids(g)) && file_.size(name_of_ids(g)) != static_cast<std::size_t>(count)) {
+      throw Error(path_.string() + ": is of another mesh: " + group.name + ": " +
+                  std::to_string(file_.size(name_of_ids(g))) + " points there, " + std::to_string(count) + " here");
+    }
+    for (const Snapshot::Column& column : group.columns) {
+      const std::string name = group.name + " > " + column.name;
+      if (!takes(name)) continue;
+      const bool there = g >= 0 && has<double>(name_of(g, column.name)) &&
+                         file_.size(name_of(g, column.name)) == static_cast<std::size_t>(count * column.width);
+      if (!there) missing.push_back(name);
+    }
+  }
+  [[noreturn]] void damaged(const std::string& what) const {
+    throw Error(path_.string() + ": is damaged: the check sum of " + what + " is not that of its contents");
+  }
+
+  const fs::path& path_;
+  const NetcdfLists& file_;
+  std::vector<std::string> groups_, lists_;
+  std::vector<double> sums_;
+};
+
+}  // namespace
+
+Parts read_checkpoint_parts(const fs::path& newest, const Communicator& communicator, const Takes& takes,
+                            Snapshot& snapshot) {
+  std::vector<std::int64_t> counts;
+  for (const Snapshot::Group& group : snapshot.groups) counts.push_back(communicator.sum(std::ssize(group.ids)));
+  std::optional<NetcdfLists> file;
+  fs::path path = newest;
+  Parts parts;
+  std::vector<int> groups;  // their numbers in the file
+  const auto open = [&] {
+    NetcdfLists found = opened(path);
+    parts.missing.clear();
+    groups = PartsOfFile(path, found).compare(snapshot, counts, takes, parts.missing);
+    file.emplace(std::move(found));
+  };
+  run_on_root(communicator, [&] { open_either(newest, path, open, parts.note); });
+  communicator.broadcast(groups);
+  parts.missing = broadcast_names(std::move(parts.missing), communicator);
+  const std::set<std::string> missing(parts.missing.begin(), parts.missing.end());
+  const auto is_there = [&](const std::string& name) { return takes(name) && !missing.contains(name); };
+  for (auto& [name, value] : snapshot.numbers) {
+    if (is_there(name)) value = number(communicator, file, name);
+  }
+  for (auto& [name, value] : snapshot.shares) {
+    if (is_there(name)) value = share(communicator, file, name);
+  }
+  bool known = true;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    Snapshot::Group& group = snapshot.groups[g];
+    const auto is_wanted = [&](const Snapshot::Column& column) { return is_there(group.name + " > " + column.name); };
+    const bool any = groups[g] >= 0 && std::ranges::any_of(group.columns, is_wanted);
+    known = (!any || restore(communicator, file, groups[g], is_wanted, group)) && known;
+  }
+  raise_together(communicator, known ? "" : path.string() + ": is of another mesh: the ids of its points are others");
+  return parts;
 }
 
 bool checkpoint_is_there(const fs::path& path) {

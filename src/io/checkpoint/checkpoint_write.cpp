@@ -44,14 +44,25 @@ void replace(const fs::path& path, const fs::path& part) {
   if (handle >= 0) ::fsync(handle), ::close(handle);  // some file systems cannot sync; then it is not needed
 }
 
+template <class Names, class NameOf>
+std::string lines(const Names& names, const NameOf& name_of) {
+  std::string text;
+  for (const auto& one : names) text += name_of(one) + "\n";
+  return text;
+}
+
 // Defines the layout, on rank 0. `sizes`: number of points of each group over all ranks.
 void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector<std::size_t>& sizes, int ranks,
             const std::string& deck) {
-  file.define(name_of_sums, NetcdfLists::Of::reals, 1 + number_of_lists(snapshot));
+  const std::vector<std::string> lists = lists_of(snapshot);
+  file.define(name_of_sums, NetcdfLists::Of::reals, 1 + lists.size());
   file.put(checkpoint_mark, double{version});
   file.put("written_by", build_facts());
   file.put("deck", deck);
   file.put(name_of_deck_sum, sum_of_deck(deck));
+  file.put(name_of_numbers, lines(snapshot.numbers, [](const auto& one) { return one.first; }));
+  file.put(name_of_groups, lines(snapshot.groups, [](const Snapshot::Group& one) { return one.name; }));
+  file.put(name_of_lists, lines(lists, [](const std::string& one) { return one; }));
   for (const auto& [name, value] : snapshot.numbers) file.put(name_of_number(name), value);
   for (const auto& [name, value] : snapshot.shares) file.define(name_of_share(name), NetcdfLists::Of::reals, ranks);
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {

@@ -596,4 +596,5 @@ def main():
     sys.exit(test.failures > 0)
 
 
-main()
+if __name__ == "__main__":
+    main()

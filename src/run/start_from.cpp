@@ -1,0 +1,181 @@
+#include "run/start_from.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/files.hpp"
+#include "io/checkpoint/checkpoint_file.hpp"
+#include "mechanics/energies.hpp"
+#include "mechanics/serialize.hpp"
+#include "setup/conditions.hpp"
+
+namespace strut {
+
+namespace {
+
+const std::string key = "Start From > Checkpoint";
+
+// Times are sums over up to millions of steps.
+constexpr double round_off = 1e-9;
+
+bool has_initial_velocity(const deck::Deck& deck) {
+  return std::ranges::any_of(
+      deck.conditions, [](const deck::Condition& one) { return std::holds_alternative<InitialVelocity>(one.kind); });
+}
+
+// What a file may lack: a body that could not break is whole, and contact that was not there begins anew.
+bool may_be_missing(const std::string& name) {
+  constexpr std::array of_fracture = {"damage",       "fracture_energy", "released",       "broken_bonds",
+                                      "tensor_state", "scalar_state",    "gradient_state", "quadratic_state"};
+  if (name.starts_with("contact_") || name == "penetration" || name == "searches") return true;
+  return std::ranges::any_of(of_fracture, [&](const char* one) { return name == std::string("all points > ") + one; });
+}
+
+void check_missing(const std::filesystem::path& file, const std::vector<std::string>& missing,
+                   const Communicator& communicator) {
+  std::vector<std::string> needed = missing;
+  std::erase_if(needed, may_be_missing);
+  raise_together(communicator, needed.empty() ? ""
+                                              : key + ": " + file.string() + " does not hold what this deck's bodies " +
+                                                    "need: " + joined(needed));
+}
+
+// The stretch of periodic sides is that of the checkpoint, or all images would jump.
+std::string other_stretch(const deck::Deck& deck, const std::vector<Period>& periods, const Snapshot& found) {
+  const double t = deck.solver.initial_time;
+  for (const Period& period : periods) {
+    const double there = found.numbers.at(std::string("stretch_") + "xyz"[period.axis]),
+                 here = stretch_at(periods, t)[period.axis];
+    if (std::abs(there - here) <= round_off) continue;
+    std::ostringstream text;
+    text.precision(12);
+    text << "Boundary Conditions > " << deck.conditions[period.number].name << " > Stretch: is " << here
+         << " at the initial time, t = " << t << " s; expected " << there << ", as the checkpoint has it";
+    return text.str();
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<StartState> start_state_of(const deck::Deck& deck, const Communicator& communicator,
+                                         deck::Problems& problems) {
+  if (!deck.start_from || !problems.empty()) return std::nullopt;
+  return std::optional<StartState>(std::in_place, deck, communicator, problems);
+}
+
+StartState::StartState(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems)
+    : file_(deck.start_from->checkpoint), communicator_(communicator) {
+  io::CheckpointFacts facts;
+  try {
+    facts = io::facts_of_checkpoint(file_, communicator);
+  } catch (const Error& error) {
+    std::string why = error.what();
+    run_on_root(communicator, [&] {
+      if (is_of_kind(file_, FileKind::result)) {
+        why = file_.string() +
+              " is a result: its frames do not hold the state of the laws (their stress, F, the steps "
+              "of each point); expected a checkpoint, which the section Restart in that run's deck keeps";
+      }
+    });
+    communicator.broadcast(why);
+    problems.add(key, why);
+    return;
+  }
+  time_ = facts.time;
+  changes_ = deck::start_changes(facts.deck, deck.text);
+  for (const std::string& one : changes_.refused)
+    problems.add(one + "; expected the bodies of " + file_.string() + " (" + key + ")");
+  keeps_velocities_ = deck.start_from->keeps_velocities.value_or(!changes_.after_equilibria);
+  const double now = deck.solver.initial_time;
+  const bool same_time = std::abs(now - time_) <= round_off * std::abs(time_);
+  const bool with_velocities =
+      changes_.after_equilibria || (keeps_velocities_ && (changes_.same_conditions || !has_initial_velocity(deck)));
+  goes_on_ = same_time && changes_.same_solver && changes_.same_contact && with_velocities &&
+             changes_.after_equilibria == deck.solver.quasi_static.has_value();
+}
+
+std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
+  Body& body = scene.body;
+  const contact::Kinematics kinematics{body.domain, body.velocity, body.density};
+  const auto pass = [&](Archive archive, double& last_step) {
+    archive.number("dt", last_step);
+    serialize_for_start(archive, body);
+    if (scene.fracture) scene.fracture->serialize(archive, body);
+    if (!goes_on_ && changes_.same_contact) scene.contact.serialize(archive, kinematics, 0);
+  };
+  double last_step = 0;  // s
+  Snapshot snapshot;
+  pass(Archive::saving_to(snapshot), last_step);
+  const auto all = [](const std::string&) { return true; };
+  const io::Parts parts = io::read_checkpoint_parts(file_, communicator_, all, snapshot);
+  check_missing(file_, parts.missing, communicator_);
+  raise_together(communicator_, other_stretch(deck, body.domain.periods, snapshot));
+  body.domain.halo.set_stretch(stretch_at(body.domain.periods, deck.solver.initial_time));
+  pass(Archive::loading_from(snapshot), last_step);
+  if (!keeps_velocities_) {
+    std::ranges::fill(body.velocity, Vector::Zero());
+  } else if (!goes_on_ && !changes_.after_equilibria) {
+    // From the mid-step before the checkpoint to its time.
+    for (int i = 0; i < body.owned(); ++i)
+      body.velocity[i] += 0.5 * last_step / body.density[i] * body.force_density[i];
+  }
+  if (!goes_on_) body.previous_velocity = body.velocity;
+  begin_from_here(deck, !goes_on_, scene, communicator_);
+  return (parts.note.empty() ? "" : "WARNING: " + parts.note + "\n") + story(deck, scene);
+}
+
+std::string StartState::story(const deck::Deck& deck, const Scene& scene) const {
+  const Energies stored = stored_energies(scene.body);
+  std::ostringstream text, time;
+  time.precision(17);  // to go on, Initial Time must be the same
+  time << time_;
+  text << "starts from " << file_.string() << ", t = " << time.str() << " s there, after "
+       << (changes_.after_equilibria ? "equilibria" : "explicit steps") << ": "
+       << (goes_on_                               ? "goes on with its steps"
+           : deck.solver.quasi_static.has_value() ? "without velocities"
+           : keeps_velocities_                    ? "with its velocities"
+                                                  : "at rest")
+       << "; " << stored.elastic << " J stored and " << stored.dissipated + stored.fracture
+       << " J dissipated before are given, work counts from here";
+  if (!goes_on_ || !changes_.same_conditions)
+    text << "; loads" << (scene.tools.empty() ? "" : ", rigid tools") << " begin anew";
+  if (scene.contact.any() && !changes_.same_contact) text << "; contact begins anew, without friction";
+  return text.str() + "\n";
+}
+
+// Steps and work count from here; conditions that are not the same have no past.
+bool StartState::takes_of_steps(const std::string& name) const {
+  constexpr std::array counted = {"put_in",        "work_has_begun", "external_work",    "tool_work",
+                                  "contact_work",  "work_of_tools",  "work_of_friction", "largest_energy",
+                                  "most_substeps", "updates"};
+  if (name == "steps" || std::ranges::any_of(counted, [&](const char* one) { return name.starts_with(one); }))
+    return false;
+  if (changes_.same_conditions) return true;
+  const std::string column = name.substr(name.find(" > ") == std::string::npos ? 0 : name.find(" > ") + 3);
+  return !name.starts_with("tool ") && !column.starts_with("tool_") && !column.starts_with("impulse_") &&
+         !column.starts_with("last_");
+}
+
+template <class Solver>
+void StartState::take_steps(Solver& solver, void (Solver::*serialize)(Archive&)) {
+  Snapshot snapshot;
+  Archive asks = Archive::saving_to(snapshot);
+  (solver.*serialize)(asks);
+  const auto takes = [this](const std::string& name) { return takes_of_steps(name); };
+  check_missing(file_, io::read_checkpoint_parts(file_, communicator_, takes, snapshot).missing, communicator_);
+  Archive restores = Archive::loading_from(snapshot);
+  (solver.*serialize)(restores);
+}
+
+void StartState::go_on(CentralDifference& solver) { take_steps(solver, &CentralDifference::serialize_steps); }
+
+void StartState::begin(QuasiStatic& solver) {
+  if (goes_on_) take_steps(solver, &QuasiStatic::serialize_search);
+  solver.begin_strained(goes_on_);
+}
+
+}  // namespace strut

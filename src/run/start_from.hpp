@@ -1,0 +1,47 @@
+// Begins a run in the state in which another one has ended (the deck's section Start From).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "deck/changes.hpp"
+#include "deck/deck.hpp"
+#include "setup/scene.hpp"
+
+namespace strut {
+
+// The other run's checkpoint. All functions are collective.
+class StartState {
+ public:
+  // Adds a problem if the file is no checkpoint, or of another body. Before the mesh is read.
+  StartState(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems);
+
+  // Gives the scene, as it was set up, the state of the body; its conditions see it from then on. Throws Error on all
+  // ranks if the mesh is another one. Returns what it says to the user.
+  std::string restore(const deck::Deck& deck, Scene& scene);
+
+  // True if steps (or load steps) of the same kind, at the same time, go on as if the other run had not ended. The
+  // solver of the scene must then be ToBeRestored, and gets the other one's steps.
+  bool goes_on() const { return goes_on_; }
+  void go_on(CentralDifference& solver);
+  // In both cases.
+  void begin(QuasiStatic& solver);
+
+ private:
+  template <class Solver>
+  void take_steps(Solver& solver, void (Solver::*serialize)(Archive&));
+  bool takes_of_steps(const std::string& name) const;
+  std::string story(const deck::Deck& deck, const Scene& scene) const;
+
+  std::filesystem::path file_;
+  Communicator communicator_;
+  deck::StartChanges changes_;
+  double time_ = 0;  // s, of the checkpoint
+  bool keeps_velocities_ = false, goes_on_ = false;
+};
+
+// Nothing, if the deck does not start from another run.
+std::optional<StartState> start_state_of(const deck::Deck& deck, const Communicator& communicator,
+                                         deck::Problems& problems);
+
+}  // namespace strut

@@ -1,0 +1,194 @@
+#!/usr/bin/python3
+"""Runs that start from the checkpoint of another run (Start From): with the same deck they go on as if that run had not
+ended, equilibria and then steps are those of one deck with two solvers, and what cannot be is refused by name."""
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+import warnings
+
+import block
+import numpy as np
+import strut
+from block import SPACING
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "checkpoint"))
+import restarts  # noqa: E402  its scenes: no two points alike, contact, friction, substeps, viscosity, breaking bonds
+
+FIELDS = ("Displacement", "Velocity", "Cauchy_Stress", "Deformation_Gradient")
+# What counts work from the start of a run on.
+OF_WORK = ("Work", "Balance", "Gained", "Contact_Energy", "Step")
+
+
+def scene(name):
+    """The deck of a scene, without files but its mesh."""
+    restarts.points("points.txt", with_flap=name == "cells", between=0 if name == "rubbing" else restarts.GAP)
+    pathlib.Path("scene.xml").write_text(restarts.section(name, *restarts.SCENES[name]()).replace(f' name="{name}"', "", 1))
+    deck = strut.Deck("scene.xml")
+    del deck["Output"], deck["History"]["Filename"]
+    return deck
+
+
+def but(deck, **sections):
+    """The deck with other sections, which stay as they were there, and with keys of sections."""
+    return strut.Deck({**deck, **{name.replace("_", " "): value for name, value in sections.items()}}, deck.name)
+
+
+def start(deck, checkpoint, time=0.0, keep_velocities=None, **sections):
+    """The deck of a run that starts from there."""
+    state = {"Checkpoint": checkpoint, "Keep Velocities": keep_velocities}
+    return but(deck, **{"Solver": {**deck["Solver"], "Initial Time": time}, "Start From": state,
+                        **{name.replace("_", " "): value for name, value in sections.items()}})
+
+
+def ended(deck, steps, mesh=None, name="first.restart"):
+    """A run that is ended early, with a checkpoint."""
+    run = strut.Run(but(deck, Restart={"Filename": name}), mesh)
+    run.advance(steps=steps)
+    run.end()
+    return run
+
+
+class Starts(unittest.TestCase):
+    def setUp(self):
+        keep = tempfile.TemporaryDirectory()
+        self.addCleanup(keep.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(keep.name)
+        warnings.simplefilter("ignore")
+
+    def assertGoesOn(self, whole, run, tolerance=0):
+        """Fields at the end, and rows of the history, to a part of the largest value."""
+        for name in FIELDS:
+            if name not in whole.fields:
+                continue
+            one, other = (each.whole(name) for each in (whole, run))
+            self.assertLessEqual(np.abs(one - other).max(), tolerance * np.abs(one).max(), name)
+        times = whole.history["Time"]
+        rows = [np.flatnonzero(times == t)[0] for t in run.history["Time"] if t in times]
+        self.assertGreater(len(rows), 2)
+        mine = np.isin(run.history["Time"], times)
+        for name, column in whole.history.items():
+            if any(word in name for word in OF_WORK):
+                continue
+            scale = max(np.abs(column).max(), 1e-300)
+            self.assertLessEqual(np.abs(column[rows] - run.history[name][mine]).max() / scale, tolerance, name)
+
+    def goes_on(self, deck, steps, mesh=None, tolerance=0, **sections):
+        whole = strut.run(deck, mesh)
+        first = ended(deck, steps, mesh)
+        run = strut.run(start(deck, "first.restart", first.time, **sections), mesh)
+        self.assertIn("goes on with its steps", run.log)
+        self.assertGoesOn(whole, run, tolerance)
+        return run
+
+    def test_steps_go_on_with_the_same_bits(self):
+        for name in ("impact", "cells", "breaking", "tearing", "cracking"):
+            with self.subTest(name):
+                self.goes_on(scene(name), 40)
+
+    def test_load_steps_go_on_with_the_same_bits(self):
+        for name in ("press", "rubbing"):
+            with self.subTest(name):
+                self.goes_on(scene(name), 8)
+
+    def test_every_body_goes_on_with_the_same_bits(self):
+        """Formulations and laws, symmetry planes, periodic sides, mass scaling."""
+        metal = block.deck()["Materials"]["metal"]
+        rubber = {"Material Model": "Hyperelastic", "Density": 1100.0, "Bulk Modulus": 1e9, "Shear Modulus": 1e6, "C10": 0.4e6,
+                  "C01": 0.1e6, "Relaxation": {"Fractions": [0.5], "Times": [1e-5]}}
+        hot = {**metal, "Rate": {"Type": "Johnson-Cook", "Reference Rate": 1.0, "Coefficient": 0.02},
+               "Hardening": {"Type": "Linear", "Hardening Modulus": 1e9}, "Heating": {"Specific Heat": 900.0},
+               "Softening": {"Type": "Johnson-Cook", "Reference Temperature": 293.0, "Melting Temperature": 900.0, "Exponent": 1.0}}
+        laws = {"metal": metal, "hot": hot, "rubber": rubber, "elastic": {**metal, "Material Model": "Elastic", "Yield Stress": None},
+                "cells": {**hot, "Formulation": "Quadratic Correspondence"}}
+        if "STRUT_USER_J2" in os.environ:
+            laws["user"] = {**metal, "Material Model": "User Library", "Library": os.environ["STRUT_USER_J2"], "Interface": "UMAT",
+                            "Constants": [70e9, 0.3, 200e6, 1e9], "State Variables": 1, "Yield Stress": None}
+        plane = {"Type": "Symmetry Plane", "Node Set": "block_xmax", "Point": [4 * SPACING, 0, 0], "Normal": [-1, 0, 0]}
+        sides = {"Type": "Periodic Sides", "Coordinate": "y", "Lower": 0.0, "Upper": 5 * SPACING, "Stretch": "1 + 100*t"}
+        for name, material in laws.items():
+            for images in ({}, {"images": plane}, {"images": sides}):
+                with self.subTest(name, images=images):
+                    deck = block.deck(Materials={"metal": material})
+                    solver = {"Final Time": 4e-6, "Verlet": {"Mass Scaling dt": 1.3e-7}} if name == "elastic" and not images else deck["Solver"]
+                    conditions = {**deck["Boundary Conditions"], **images}
+                    self.goes_on(but(deck, Boundary_Conditions=conditions, Solver=solver), 12, block.mesh())
+
+    def test_a_run_that_has_started_so_is_continued_with_the_same_bits(self):
+        deck = scene("cells")
+        first = ended(deck, 40)
+        second = start(deck, "first.restart", first.time, Restart={"Filename": "second.restart"})
+        whole = strut.run(second)
+        ended(second, 20, name="second.restart")
+        os.remove("first.restart")
+        self.assertGoesOn(whole, strut.run(second, continued=True))
+
+    def test_equilibria_and_then_steps_are_those_of_two_solvers(self):
+        """Of tools and of surfaces that rub, and with velocities kept: the same to round-off, as contact is searched anew."""
+        for name, keep in (("press", False), ("rubbing", False), ("rubbing", True)):
+            with self.subTest(name, keep=keep):
+                deck = scene(name)
+                slow = {**deck["Solver"], "QuasiStatic": {**deck["Solver"]["QuasiStatic"], "Number of Load Steps": 5}, "Final Time": 0.2}
+                steps = {"Final Time": 0.2 + 4e-5}
+                both = strut.run(but(deck, Solver=slow, **{"Solver 2": {**steps, "Keep Velocities": keep}}))
+                strut.run(but(deck, Solver=slow, Restart={"Filename": "slow.restart"}))
+                run = strut.run(start(but(deck, Solver=steps), "slow.restart", 0.2, keep))
+                for field in FIELDS:
+                    if field in both.fields:
+                        one, other = both.whole(field), run.whole(field)
+                        self.assertLessEqual(np.abs(one - other).max(), 1e-12 * np.abs(one).max(), field)
+
+    def test_new_conditions_contact_and_solver_begin_with_the_energy_that_is_there(self):
+        """A block is crushed fast, let go, and found at rest; it is struck; its balance counts from the start."""
+        deck = block.deck()
+        first = ended(deck, 30, block.mesh())
+        energy = first.history["Elastic_Energy"][-1] + first.history["Dissipated_Energy"][-1]
+        foot = {"foot": deck["Boundary Conditions"]["foot"]}
+        blow = {"blow": {"Type": "Initial Velocity", "Node Set": "block_zmax", "Coordinate": "z", "Value": "-10"}, **foot}
+        surface = {"Models": {"touch": {"Contact Model": "Surface"}},
+                   "Interactions": {"itself": {"First Block": "block", "Second Block": "block", "Contact Model": "touch"}}}
+        rest = {"QuasiStatic": {"Number of Load Steps": 2}, "Final Time": 1.0}
+        for what, sections in {"let go": {"Boundary Conditions": foot}, "struck": {"Boundary Conditions": blow},
+                               "with contact": {"Boundary Conditions": blow, "Contact": surface},
+                               "at rest": {"Boundary Conditions": foot, "Solver": rest}}.items():
+            for keep in (True, False):
+                with self.subTest(what, keep=keep):
+                    run = strut.run(but(start(deck, "first.restart", keep_velocities=keep), **sections), block.mesh())
+                    row = {name: column[0] for name, column in run.history.items()}
+                    held = row["Elastic_Energy"] + row["Dissipated_Energy"]
+                    self.assertAlmostEqual(held / energy, 1, delta=0.02)  # a step later
+                    self.assertEqual(row["Time"], 0)
+                    self.assertLess(run.history["Balance_Error"][0], 1e-12)  # round-off
+                    # Equilibria: one step takes the whole load off, by the rule of the trapezoid.
+                    self.assertLess(run.history["Balance_Error"][-1], 0.05 if what == "at rest" else 2e-3)
+
+    def test_what_cannot_start_is_refused_by_name(self):
+        deck = block.deck(Output=block.output("first.e"))
+        ended(deck, 5, block.mesh())
+        metal, foam = deck["Materials"]["metal"], deck["Blocks"]["block"]
+        other = strut.voxels(np.ones((4, 5, 8), bool), SPACING, name="block")
+        plane = {"Type": "Symmetry Plane", "Node Set": "block_xmax", "Point": [4 * SPACING, 0, 0], "Normal": [-1, 0, 0]}
+        top = {"Type": "Prescribed Displacement", "Node Set": "block_zmax", "Coordinate": "z", "Value": "-1*t"}
+        conditions = deck["Boundary Conditions"]
+        for sections, mesh, expected in (
+            ({"Materials": {"metal": {**metal, "Yield Stress": 1e8}}}, block.mesh(), "Materials > metal > Yield Stress: 2"),
+            ({"Blocks": {"block": {**foam, "Horizon Factor": 2.1}}}, block.mesh(), "Blocks > block > Horizon Factor: 1.75 there, 2.1"),
+            ({}, other, "of another mesh: block 0 (block): 152 points there, 160 here"),
+            ({"Boundary Conditions": {**conditions, "side": plane}}, block.mesh(), "Boundary Conditions > side: not there"),
+            ({"Boundary Conditions": {**conditions, "top": top}}, block.mesh(), "Boundary Conditions > top > Value"),
+            ({"Start From": {"Checkpoint": "first.e"}}, block.mesh(), "first.e is a result"),
+            ({"Start From": {"Checkpoint": "none"}}, block.mesh(), "Start From > Checkpoint: none: there is no such file"),
+            ({"Start From": {}}, block.mesh(), "Start From > Checkpoint: missing"),
+            ({"Restart": {"Filename": "first.restart"}}, block.mesh(), "'first.restart' is the checkpoint of Start From"),
+        ):
+            with self.subTest(expected):
+                with self.assertRaises(strut.Error) as raised:
+                    strut.Run(but(start(but(deck, Output={"Output Filename": "second.e"}), "first.restart"), **sections), mesh)
+                self.assertIn(expected, str(raised.exception))
+                self.assertFalse(os.path.exists("second.e"))
+
+
+if __name__ == "__main__":
+    unittest.main()
