@@ -24,10 +24,12 @@
 #include "mesh/arrays.hpp"
 #include "mesh/body.hpp"
 #include "output/observables.hpp"
+#include "output/variables.hpp"
 #include "python/views.hpp"
 #include "run/input.hpp"
 #include "run/run_control.hpp"
 #include "run/simulation.hpp"
+#include "setup/setup.hpp"
 
 namespace py = pybind11;
 
@@ -224,7 +226,8 @@ std::string problems_of(const std::string& text, const std::string& name, const 
       problems.raise(name);
       return "";
     }
-    checked_mesh(deck, std::move(problems), ranks, mesh);
+    const Scene scene = set_up(deck, checked_mesh(deck, std::move(problems), ranks, mesh), ranks);
+    output_variables_of(deck, scene.body, scene.contact);
   } catch (const Error& error) {
     return error.what();
   }
