@@ -175,20 +175,33 @@ Images images_of(const Domain& domain, double reach) {
   return {domain.mirrors, boxes, reach};
 }
 
+// Calls visit(x) for a place before a piece, and for its images.
+template <class Visit>
+void over_images(const Piece& piece, const Images& images, const Vector& place, const Visit& visit) {
+  visit(place);
+  for (const int image : images.of_body(static_cast<int>(piece.body))) visit(images[image](place));
+}
+
 // Collective. Sets `missing`: ρ before a flat face divided by ρ before each smooth piece.
 void compare_with_face(const Domain& domain, const BlockPair& blocks, double reach, std::vector<Piece>& own) {
   const double unit = reach / reach_in_spacings, ahead = before * unit;
   const auto in_front = [ahead](const Piece& piece) { return Vector(piece.at() + ahead * piece.out()); };
-  Eigen::AlignedBox3d mine;
-  for (const Piece& piece : own) mine.extend(in_front(piece));
+  const Images images = images_of(domain, reach);
+  Eigen::AlignedBox3d mine, filled;  // where this rank looks; where points are
   std::vector<Grain> grains;
   for (int i = 0; i < domain.owned; ++i) {
     if (!is_of(domain, blocks, i)) continue;
     const Vector X = domain.reference(i);
     grains.push_back({{X[0], X[1], X[2]}, domain.volume(i), body_of(domain, i), domain.id(i)});
+    filled.extend(X);
+  }
+  filled = common_box(filled, domain.communicator);
+  for (const Piece& piece : own) {
+    over_images(piece, images, in_front(piece), [&](const Vector& x) {
+      if (filled.exteriorDistance(x) <= reach) mine.extend(x);
+    });
   }
   const Near<Grain> material(std::move(grains), mine, reach, domain.communicator);
-  const Images images = images_of(domain, reach);
   const Smoothing smoothing(reach);
   for (Piece& piece : own) {
     if (!piece.is_smooth()) continue;
@@ -198,8 +211,7 @@ void compare_with_face(const Domain& domain, const BlockPair& blocks, double rea
         share += grain.volume * smoothing.value(apart.squaredNorm());
       });
     };
-    add(in_front(piece));
-    for (const int image : images.of_body(static_cast<int>(piece.body))) add(images[image](in_front(piece)));
+    over_images(piece, images, in_front(piece), add);
     const double wanted = Face{reach, piece.spacing, true}.share(ahead);
     const double missing = wanted / share;
     piece.missing = missing < least_missing ? 0 : std::min(missing, most_missing);

@@ -24,6 +24,7 @@ constexpr Check checks[] = {
     filled_tools,
     thin_tools,
     apart_tools,
+    tools_across_sides,
     meeting_tools,
     overruled_motions,
     thin_members,

@@ -120,12 +120,13 @@ Vector RigidTool::offset(double t) const {
   return sum;
 }
 
-void RigidTool::set_reaches(double t, const Body& body) {
+void RigidTool::set_reaches(double t, const Body& body, BodyAt from) {
   const Domain& domain = body.domain;
   if (domain.cloud.at == PointsAt::nodes) return;
   auto all = std::make_shared<std::vector<double>>(body.owned(), 0);
   for (const int i : points) {
-    const Surface at = surface(shape, domain.current(i) - offset(t));
+    const Vector place = from == BodyAt::mesh ? domain.reference(i) : body.current(i);
+    const Surface at = surface(shape, place - offset(t));
     const double reach = reach_of_cell(domain.cloud, domain.volume(i), i, -at.normal);
     (*all)[i] = std::clamp(at.gap, 0.0, reach);
   }

@@ -14,6 +14,8 @@
 
 namespace strut {
 
+enum class BodyAt { mesh, present };
+
 // A tool with its points, which meet it where their cells end. A point that would enter it is stopped at its surface,
 // and may leave at any time. While it is stopped, Coulomb friction takes up to `friction` times the impulse of the tool
 // from its sliding along the tool.
@@ -41,9 +43,9 @@ struct RigidTool {
     if (reaches) at.gap -= (*reaches)[i];
     return at;
   }
-  // Sets the reaches, from the body as it begins and the tool at time t (s): cells that would overlap it there end at
-  // its surface. Nodes have none, because those at a surface lie on it.
-  void set_reaches(double t, const Body& body);
+  // Sets the reaches, from the tool at time t (s) and the body as it was read or as it is: cells that would overlap it
+  // there end at its surface. Nodes have none, because those at a surface lie on it.
+  void set_reaches(double t, const Body& body, BodyAt at);
   void serialize(Archive& archive, const std::string& name, int owned);  // at the group of all owned points
 
   static constexpr Stage stage = Stage::tools;

@@ -136,7 +136,7 @@ void Fracture::look_around(const Body& body, const std::vector<char>& points) {
   }
 }
 
-void Fracture::start_step(const Body& body, std::span<const Vector> velocities, double dt) {
+void Fracture::start_step(const Body& body, std::span<const Vector> velocities, double dt, const Vector& stretch) {
   std::vector<double> due = due_;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
@@ -147,7 +147,7 @@ void Fracture::start_step(const Body& body, std::span<const Vector> velocities, 
       for (int c = first; c < last; ++c) due[c] = is_of(body, block, c) ? never : due[c];
     }
   }
-  const bool is_due = travel_.advance(body, velocities, dt, due);
+  const bool is_due = travel_.advance(body, velocities, dt, due, stretch);
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
   is_looked_at_ = is_due || by_time_ || any_fails || energies_.any();
   if (is_looked_at_) keep_start(body);

@@ -31,9 +31,10 @@ class Fracture : public BondBreaking {
   // Collective. The families must be complete. Allocates the damage fields and sets the critical values of the blocks.
   explicit Fracture(Body& body);
 
-  // Collective. Call it before owned points move over a step of dt (s) with these velocities (m/s). Otherwise no bond
-  // breaks in the stress update that follows.
-  void start_step(const Body& body, std::span<const Vector> velocities, double dt);
+  // Collective. Call it before owned points move over a step of dt (s) with these velocities (m/s), and periodic sides
+  // by more `stretch` along x, y, z. Otherwise no bond breaks in the stress update that follows.
+  void start_step(const Body& body, std::span<const Vector> velocities, double dt,
+                  const Vector& stretch = Vector::Zero());
   // Called in the stress update at the end of a step, first for the points that need no ghost and, once ghosts are
   // current, for the others: break_bonds before their stress is updated, count_dissipation after it.
   void break_bonds(Body& body, Part part, double time, double dt) override;

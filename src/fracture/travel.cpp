@@ -34,6 +34,7 @@ Travel::Travel(const Domain& domain) {
     add(lists[c].points[0]);
     for (const int j : lists[c].near) add(j);
   }
+  for (const ImagePoint& image : domain.halo.images()) farthest_ = farthest_.cwiseMax(image.by.period.cwiseAbs());
 }
 
 // The relative displacement that is left before the next check of a region, m.
@@ -52,7 +53,8 @@ void Travel::set_boxes(const ClusterLists& lists, std::span<const Vector> veloci
   }
 }
 
-bool Travel::advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> due) {
+bool Travel::advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> due,
+                     const Vector& stretch) {
   constexpr double margin = 1 + 1e-6;  // for the round-off of positions
   set_boxes(body.domain.families.lists, velocities, due);
   Eigen::AlignedBox3d all;
@@ -74,13 +76,14 @@ bool Travel::advance(const Body& body, std::span<const Vector> velocities, doubl
     region.travel += margin * dt * box.diagonal().norm();
     passed = std::max(passed, -until_due(r, due));
   }
-  std::array<double, 8> most{passed, at_ghosts, -never, -never, -never, -never, -never, -never};
+  std::array<double, 9> most{
+      passed, at_ghosts, -never, -never, -never, -never, -never, -never, farthest_.cwiseProduct(stretch).norm()};
   for (int axis = 0; axis < 3 && !all.isEmpty(); ++axis) {
     most[2 + 2 * axis] = all.max()[axis], most[3 + 2 * axis] = -all.min()[axis];
   }
   body.domain.communicator.max(most);
   const Vector range(most[2] + most[3], most[4] + most[5], most[6] + most[7]);
-  last_ = range.allFinite() ? margin * dt * range.norm() : 0;
+  last_ = range.allFinite() ? margin * (dt * range.norm() + most[8]) : 0;
   for (Region& region : regions_) {
     if (region.meets_ghosts) region.travel += last_;
   }

@@ -2,7 +2,7 @@
 //
 // Consecutive clusters form a region. Points of a region and of its families move apart no faster than the diagonal
 // of the box of their velocities. If ghosts are among them, whose velocities are unknown, the box of all points is
-// used.
+// used, and what moves periodic sides apart.
 #pragma once
 
 #include <span>
@@ -17,8 +17,10 @@ class Travel {
   explicit Travel(const Domain& domain);
 
   // Collective. Adds a step of dt (s) with these velocities of owned points (m/s). `due`: travel at which each cluster
-  // must be checked, m; infinite if it need not be. Returns true if any is due, on any rank.
-  bool advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> due);
+  // must be checked, m; infinite if it need not be. `stretch`: what the step adds to the stretch of periodic sides
+  // along x, y, z. Returns true if any is due, on any rank.
+  bool advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> due,
+               const Vector& stretch);
 
   double of(int cluster) const { return regions_[cluster / clusters_a_region].travel; }  // since the start, m
   double last() const { return last_; }  // of any two points in the last step, m
@@ -37,6 +39,7 @@ class Travel {
   double until_due(std::size_t region, std::span<const double> due) const;
 
   std::vector<Region> regions_;
+  Vector farthest_ = Vector::Zero();  // image behind periodic sides, from its original, m
   double last_ = 0;
 };
 

@@ -258,6 +258,7 @@ void Run::Parts::close() {
 // The explicit steps that follow equilibria (Solver 2): with the body as it is, files that go on, and no checkpoints.
 void Run::Parts::hand_over() {
   report();
+  const Ledger before = equilibria->ledger();
   deck = set_up_next(deck, equilibria->take_contact(), *scene);
   std::ostringstream from;
   from << "\nSolver 2: explicit steps from t = " << deck.solver.initial_time << " s\n" << scene->warnings;
@@ -273,6 +274,7 @@ void Run::Parts::hand_over() {
   equilibria.reset();
   balance = Balance(deck);
   make_solver();
+  steps->go_on_from(before);
   open(Start::anew);
   begun = last = ending = save = false;
 }

@@ -27,26 +27,38 @@ std::vector<int> points_of(const PointCloud& cloud, const std::string& set) {
   return points;
 }
 
+// s, of the body as it was read, and at which the conditions begin.
+struct Times {
+  double mesh = 0, begin = 0;
+};
+
 void check_values(const std::vector<Function>& values, const std::vector<int>& points, double t, const Domain& domain) {
   for (const Function& value : values) {
     for (const int i : points) finite_value(value, domain.reference(i), t);
   }
 }
 
+// A tool that has held the body since the mesh was read, as in the equilibria before, keeps the reaches of then.
+void set_reaches(RigidTool& tool, const Times& times, const Body& body) {
+  if (!tool.free || times.mesh == times.begin) return tool.set_reaches(times.mesh, body, BodyAt::mesh);
+  tool.set_reaches(times.begin, body, BodyAt::present);
+}
+
 template <ConditionType Type>
-void put(const Type& prototype, const std::string& name, std::vector<int> points, int place, double t, Scene& scene) {
+void put(const Type& prototype, const std::string& name, std::vector<int> points, int place, const Times& times,
+         Scene& scene) {
   Type condition = prototype.on(std::move(points), place, scene.body);
   if constexpr (std::is_same_v<Type, RigidTool>) {
-    if (condition.free) condition.free->time = t;  // it rests until then
-    condition.set_reaches(t, scene.body);
+    if (condition.free) condition.free->time = times.begin;  // it rests until then
+    set_reaches(condition, times, scene.body);
     scene.tools.push_back({name, condition.touched});
   }
   scene.conditions.add(std::move(condition));
 }
 
-void put(const ActsOnce auto& prototype, const std::string&, const std::vector<int>& points, int, double t,
+void put(const ActsOnce auto& prototype, const std::string&, const std::vector<int>& points, int, const Times& times,
          Scene& scene) {
-  prototype.set_initial_state(points, t, scene.body);
+  prototype.set_initial_state(points, times.begin, scene.body);
 }
 
 // If other conditions hold points of a plane in directions not orthogonal to its normal, the plane pushes these points
@@ -80,19 +92,28 @@ bool needs_inertia(const deck::Condition& condition) {
   return (tool && tool->free) || std::visit(impossible, condition.kind);
 }
 
+// Points that a condition holds begin where it has them.
+void put_back_held(const deck::Deck& deck, const PointsOfConditions& points, Body& body) {
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const auto* motion = std::get_if<PrescribedMotion>(&deck.conditions[c].kind);
+    if (!motion || motion->is_velocity) continue;
+    InitialDisplacement{motion->components, motion->value}.set_initial_state(points[c], deck.solver.initial_time, body);
+  }
+}
+
 bool is_initial_displacement(const deck::Condition& condition) {
   return std::holds_alternative<InitialDisplacement>(condition.kind);
 }
 
 // `place`: index of the condition in the deck.
 void add_condition(const deck::Condition& condition, int place, std::vector<int> points, const SharedPoints& shared,
-                   double t, Scene& scene) {
+                   const Times& times, Scene& scene) {
   const auto add = [&]<class Type>(const Type& prototype) {
-    check_values(prototype.values_at_points(), points, t, scene.body.domain);
+    check_values(prototype.values_at_points(), points, times.begin, scene.body.domain);
     if constexpr (std::is_same_v<Type, SymmetryPlane>) {
       put(prototype, std::move(points), place, shared, scene);
     } else {
-      put(prototype, condition.name, std::move(points), place, t, scene);
+      put(prototype, condition.name, std::move(points), place, times, scene);
     }
   };
   std::visit(add, condition.kind);
@@ -123,7 +144,8 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
   }
 }
 
-void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& communicator) {
+void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, const Communicator& communicator) {
+  const Times times{mesh_time, deck.solver.initial_time};
   deck::Problems problems;
   if (scene.dropped.points > 0) check_conditions(deck, scene.body.domain.cloud, communicator, problems);  // again
   PointsOfConditions points;
@@ -142,12 +164,13 @@ void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& co
   for (int place = 0; place < static_cast<int>(deck.conditions.size()); ++place) {
     if (deck.next_solver && needs_inertia(deck.conditions[place])) continue;  // begins with the explicit steps
     try {
-      add_condition(deck.conditions[place], place, points[place], shared, deck.solver.initial_time, scene);
+      add_condition(deck.conditions[place], place, points[place], shared, times, scene);
     } catch (const Error& error) {
       problems.add(error.what());
     }
   }
   if (std::ranges::any_of(deck.conditions, is_initial_displacement)) {
+    put_back_held(deck, points, scene.body);
     scene.body.domain.halo.exchange_places(scene.body.domain.sites);
   }
   raise_together(communicator, problems.text(deck.file.string()));
@@ -169,7 +192,7 @@ void begin_from_here(const deck::Deck& deck, bool with_initial_velocities, Scene
   scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   scene.conditions.visit([&]<class Type>(Type& one) {
-    if constexpr (std::is_same_v<Type, RigidTool>) one.set_reaches(t, scene.body);
+    if constexpr (std::is_same_v<Type, RigidTool>) one.set_reaches(t, scene.body, BodyAt::present);
   });
 }
 

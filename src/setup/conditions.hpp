@@ -11,8 +11,9 @@ namespace strut {
 void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
                       deck::Problems& problems);
 
-// Collective. Throws Error on all ranks for errors that only mesh and deck together show.
-void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& communicator);
+// Collective. Throws Error on all ranks for errors that only mesh and deck together show. `mesh_time`: s, of the body
+// as it was read, before the deck's initial time where these conditions follow others.
+void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, const Communicator& communicator);
 
 // Collective. The same scene, whose body is now in the state of another run (Start From): gives it initial velocities,
 // unless they are that run's, and tools the surface that they meet. Throws Error on all ranks for displacements that

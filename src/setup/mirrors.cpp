@@ -202,6 +202,11 @@ Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communica
       }
     }
   }
+  if (deck.discretization.grid.boxes && !found.planes.empty()) {
+    throw Error(path_of(deck, found.planes.front()) +
+                ": families that are boxes of cells end with the grid, and do not go on behind the plane; expected "
+                "Discretization > NeighborhoodType \"Spherical\"");
+  }
   check_angles(deck, found.planes);
   return found;
 }

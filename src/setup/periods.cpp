@@ -25,6 +25,20 @@ void for_each(const deck::Deck& deck, const Visit& visit) {
   }
 }
 
+// Problems of walls across an axis along which all bodies go on forever.
+void check_walls(const deck::Deck& deck, const PeriodicSides& sides, const std::string& path,
+                 deck::Problems& problems) {
+  constexpr double round_off = 1e-9;
+  for (const deck::Condition& condition : deck.conditions) {
+    const auto* tool = std::get_if<RigidTool>(&condition.kind);
+    const auto* wall = tool ? std::get_if<HalfSpace>(&tool->shape) : nullptr;
+    if (!wall || std::abs(wall->normal[sides.axis]) < round_off) continue;
+    problems.add("Boundary Conditions > " + condition.name + " > Normal",
+                 std::string("has a component along ") + "xyz"[sides.axis] + ", along which bodies go on through " +
+                     path + ": they would be on both sides of this wall; expected 0 for it");
+  }
+}
+
 // Why the points do not fit between the sides; empty if they do. `edge`: of the smallest cell, `horizon`: the largest,
 // m.
 std::string objection(const PeriodicSides& sides, const Eigen::AlignedBox3d& box, double edge, double horizon) {
@@ -78,6 +92,12 @@ std::vector<Period> periods(const deck::Deck& deck, const PointCloud& cloud, con
                    ": nodes on a side would coincide with images of those on the other; expected Discretization > "
                    "Points \"Elements\"");
     }
+    if (deck.discretization.grid.boxes) {
+      problems.add(path +
+                   ": families that are boxes of cells end with the grid; expected Discretization > "
+                   "NeighborhoodType \"Spherical\"");
+    }
+    check_walls(deck, sides, path, problems);
     if (!mirrors.empty()) problems.add(path + ": bodies that go on behind symmetry planes have no periodic sides, too");
     if (!deck.start_from && std::abs(first - 1) > 1e-12) {  // else compared with the checkpoint
       problems.add(path + " > Stretch: '" + sides.stretch.text() +

@@ -57,7 +57,7 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weigh
               found.warnings};
   scene.warnings += open_sides(deck, scene.body.domain);
   scene.fracture = fracture_of(scene.body);
-  add_conditions(deck, scene, communicator);
+  add_conditions(deck, deck.solver.initial_time, scene, communicator);
   return scene;
 }
 
@@ -96,7 +96,7 @@ deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& 
   scene.warnings.clear();
   scene.quasi_static.reset();
   scene.control = control_of(next);
-  add_conditions(next, scene, scene.body.domain.communicator);
+  add_conditions(next, deck.solver.initial_time, scene, scene.body.domain.communicator);
   scene.contact = std::move(contact);
   scene.fracture = fracture_of(scene.body);
   return next;

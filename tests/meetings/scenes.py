@@ -357,7 +357,7 @@ class Draft:
 
     def may_fail(self, model, material):
         """What the deck's reader would refuse; of a model that is new, nothing."""
-        if material.get("Equation of State", {}).get("Type", "None") != "None":
+        if material.get("Equation of State", {}).get("Type", "None") != "None" or material["Material Model"] == "Hyperelastic":
             return False
         if model == "Bond Energy":
             return all(m["Material Model"] == "Elastic" for m in self.of_material.values())

@@ -24,11 +24,13 @@
 #include "mesh/arrays.hpp"
 #include "mesh/body.hpp"
 #include "output/observables.hpp"
+#include "output/variables.hpp"
 #include "python/views.hpp"
 #include "run/input.hpp"
 #include "run/run_control.hpp"
 #include "run/simulation.hpp"
 #include "run/start_from.hpp"
+#include "setup/setup.hpp"
 
 namespace py = pybind11;
 
@@ -226,7 +228,8 @@ std::string problems_of(const std::string& text, const std::string& name, const 
       return "";
     }
     start_state_of(deck, ranks, problems);
-    checked_mesh(deck, std::move(problems), ranks, mesh);
+    const Scene scene = set_up(deck, checked_mesh(deck, std::move(problems), ranks, mesh), ranks);
+    output_variables_of(deck, scene.body, scene.contact);
   } catch (const Error& error) {
     return error.what();
   }

@@ -100,6 +100,9 @@ History read_history(const Values& deck, const Solver& solver, Problems& problem
   for (const Values& one : values.section(cracks.name).sections()) history.cracks.push_back(read_crack(one, problems));
   for (const Values& one : values.section(profiles.name).sections())
     history.profiles.push_back(read_profile(one, problems));
+  for (const Values& one : values.section(probes.name).sections()) {
+    if (one.name() == "all") problems.add(one.path(), "is the set of all points; expected another name");
+  }
   read_when(values, when, solver.duration(), history, problems);
   return history;
 }

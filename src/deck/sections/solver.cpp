@@ -194,6 +194,14 @@ std::optional<Solver> read_next_solver(const Values& deck, const Solver& first, 
                                                    "'; expected the Final Time of Solver (" +
                                                    to_text(first.final_time) + "), in s, or no such key");
   }
+  if (!(next.final_time > next.initial_time) && values.has(final_time) && !values.given(initial_time)) {
+    problems.add(values.path_to(final_time), "'" + to_text(next.final_time) +
+                                                 "'; expected > the Final Time of Solver (" +
+                                                 to_text(first.final_time) + "), in s");
+  }
+  if (next.wall_time) {
+    problems.add(values.path_to(wall_time), "given; expected none: that of Solver is the time of both");
+  }
   if (next.scaled_dt) {
     problems.add(values.section(verlet.name).path_to(scaled_dt),
                  "given; expected none: masses are scaled from the start "

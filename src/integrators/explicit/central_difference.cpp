@@ -80,21 +80,38 @@ void CentralDifference::advance_velocity(double final_time) {
   length_.choose(time_, final_time, contact_.stiffness(), exposed_are_pushed_, body_);
   const Timed timed(timer);
   choose_load_times(final_time);
+  const bool is_first = length_.previous_dt() == 0;
+  const std::vector<Vector> inner = is_first ? *body_.force_density : std::vector<Vector>();
   add_loads();
   const double before = length_.previous_dt(), after = length_.dt(), impulse_time = 0.5 * (before + after);
   // Initial velocities belong to the initial time: the first impulse is that of half a step.
-  if (before == 0) body_.velocity = predicted_velocities(conditions_, time_, after, body_);
+  if (is_first) body_.velocity = predicted_velocities(conditions_, time_, after, body_);
   mid_steps_.before = before / (before + after);
   for_each_point(0, body_.owned(), [&](int i) { kick(i, impulse_time); });
   constrain(impulse_time);
   count_work(impulse_time);
   if (mid_steps_.before != 0.5) even_out();
-  if (!energies_.has_begun()) energies_.begin_with(ledger());
+  if (!energies_.has_begun()) energies_.begin_with(ledger(), is_first ? energy_of_half_step(inner) : 0);
+}
+
+// The scheme conserves ½ m v⁻·v⁺ and the strain energy, whose first value is ½ m (v² − (½ Δt a)²): of this, the part of
+// the inner forces, which do no work that is counted.
+double CentralDifference::energy_of_half_step(const std::vector<Vector>& inner) const {
+  double sum = 0;
+  for (int i = 0; i < body_.owned(); ++i) {
+    const Vector change = 0.5 * (body_.velocity[i] - body_.previous_velocity[i]);
+    sum -= 0.25 * dt() * body_.domain.volume(i) * change.dot(inner[i]);
+  }
+  return body_.domain.communicator.sum(sum);
 }
 
 void CentralDifference::advance_position(bool with_diagnostics) {
   update_rigid_motion(body_);
-  if (fracture_) fracture_->start_step(body_, body_.velocity, dt());
+  if (fracture_) {
+    const Domain& domain = body_.domain;
+    fracture_->start_step(body_, body_.velocity, dt(),
+                          stretch_at(domain.periods, length_.next_time()) - domain.halo.stretch());
+  }
   const StepReport between = substeps();
   drift_to_next_time();
   StepReport report = advance_stress(body_, dt(), with_diagnostics, time_, breaking());
@@ -293,24 +310,37 @@ CentralDifference::Severity CentralDifference::severity(const StepReport& report
 
 Ledger CentralDifference::ledger() { return energies_.ledger(body_, conditions_, contact_, mid_steps_, time_, dt()); }
 
+void CentralDifference::go_on_from(const Ledger& before) {
+  energies_.go_on_from(before, body_.domain.communicator.rank() == 0, contact_.energy());
+}
+
 void CentralDifference::serialize(Archive& archive) {
+  serialize_time(archive);  // before ghosts get their places
   strut::serialize(archive, body_);
   if (fracture_) fracture_->serialize(archive, body_);
-  serialize_steps(archive);
+  serialize_motion(archive);
 }
 
 void CentralDifference::serialize_steps(Archive& archive) {
+  serialize_time(archive);
+  serialize_motion(archive);
+}
+
+void CentralDifference::serialize_time(Archive& archive) {
+  archive.number("time", time_);
+  if (archive.loading()) stretch_sides(time_);
+}
+
+void CentralDifference::serialize_motion(Archive& archive) {
   archive.points("all points", {body_.domain.cloud.ids.begin(), body_.domain.cloud.ids.begin() + body_.owned()});
   multi_stepping_.serialize(archive, body_);
   length_.serialize(archive, body_);
   serialize_tools(archive, conditions_, body_.owned());
-  archive.number("time", time_);
   archive.number("most_substeps", most_substeps_);
   archive.number("updates", updates_);
   archive.number("exposed_are_pushed", exposed_are_pushed_);
   energies_.serialize(archive);
   reactions_.serialize(archive);
-  if (archive.loading()) stretch_sides(time_);
   mirror_forces_.resize(side_count(body_.domain), Vector::Zero());
   serialize_mirror_forces(archive, mirror_forces_);
   contact_.serialize(archive, kinematics(), dt());

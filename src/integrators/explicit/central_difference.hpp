@@ -45,6 +45,8 @@ class CentralDifference {
   void advance_position(bool with_diagnostics);
 
   Ledger ledger();  // collective; after advance_velocity()
+  // Before the first step: the work so far is that of a solver before this one.
+  void go_on_from(const Ledger& before);
 
   // From now on, adds up the impulses of this number of conditions of the deck.
   void gather_reactions(int conditions) { reactions_.gather(conditions); }
@@ -82,11 +84,14 @@ class CentralDifference {
   void constrain(double impulse_time);
   void count_work(double impulse_time);
   void even_out();
+  double energy_of_half_step(const std::vector<Vector>& inner) const;
   void drift(int i, const PointTimeSteps& steps);
   void drift_to_next_time();
   void reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed);
   void restrict_conditions();
   void stretch_sides(double t);
+  void serialize_time(Archive& archive);
+  void serialize_motion(Archive& archive);
   StepReport substeps();
   StepReport substep(int level, double t);
   void sum_all_forces(bool with_diagnostics);

@@ -1,15 +1,23 @@
 #include "integrators/explicit/energy_account.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "mechanics/mechanics.hpp"
 
 namespace strut {
 
+void EnergyAccount::go_on_from(const Ledger& before, bool on_this_rank, double in_contact) {
+  if (on_this_rank) done_.external = before.external, done_.tools = before.tools, done_.contact = before.contact;
+  done_.contact += in_contact;
+  largest_ = std::max(largest_, before.largest);
+}
+
 void EnergyAccount::begin_impulse() {
   add(impulse_);
   impulse_ = {};
+  initial_ += std::exchange(half_step_, 0);
 }
 
 Ledger EnergyAccount::ledger(const Body& body, const Conditions& conditions, const contact::Contact& contact,
@@ -51,6 +59,7 @@ Ledger EnergyAccount::ledger(const Body& body, const Conditions& conditions, con
 void EnergyAccount::serialize(Archive& archive) {
   archive.number("put_in", initial_);
   archive.number("work_has_begun", has_begun_);
+  archive.number("half_step", half_step_);
   archive.number("largest_energy", largest_);
   const auto serialize = [&archive](const std::string& when, Work& work) {
     archive.share("external_work" + when, work.external);

@@ -110,6 +110,17 @@ class Runs(InFolder):
         moved = run.whole("Displacement").reshape(-1, 3)[:, 2]
         self.assertAlmostEqual(moved.min() / -1e-6, 1, 9)
 
+    def test_steps_go_on_from_equilibria(self):
+        conditions = block.deck()["Boundary Conditions"]
+        top = {**conditions["top"], "Type": "Prescribed Displacement", "Value": "-1e-6*t"}
+        deck = block.deck(Solver={"Final Time": 1.0, "QuasiStatic": {"Number of Load Steps": 2}},
+                          **{"Solver 2": {"Final Time": 1.000002, "Verlet": {}}, "Boundary Conditions": {**conditions, "top": top}})
+        whole, paused = strut.run(deck, block.mesh()), strut.Run(deck, block.mesh())
+        while paused.advance(steps=1):
+            pass
+        self.assertGreater(len(whole.history["Time"]), 5)
+        np.testing.assert_array_equal(paused.history["Max_Displacement"], whole.history["Max_Displacement"])
+
     def test_ctrl_c_ends_a_run_with_a_checkpoint_and_interrupts(self):
         deck = block.deck(Solver={"Final Time": 1.0}, Restart={"Filename": "block.restart"}, History=None)
         conditions = {name: {**condition, "Value": "0"} for name, condition in deck["Boundary Conditions"].items()}
@@ -131,6 +142,10 @@ class Errors(InFolder):
                              ["Blocks > block > Horizon", "Materials > metal > Yeild Stress"])
             self.assertIn("did you mean 'Yield Stress'?", str(caught.exception))
         strut.check(block.deck(), block.mesh())  # raises nothing
+        sides = {"sides": {"Type": "Periodic Sides", "Coordinate": "x", "Lower": 0.0, "Upper": 3e-3}}
+        for start in (strut.check, strut.run):  # what deck and mesh show together
+            with self.assertRaisesRegex(strut.Error, "not all between the sides"):
+                start(block.deck(**{"Boundary Conditions": sides}, History=None), block.mesh())
 
     def test_what_no_deck_can_hold_is_told_by_its_place(self):
         with self.assertRaisesRegex(strut.Error, "deck > Solver > Final Time: .* of type complex"):
@@ -158,6 +173,8 @@ class Errors(InFolder):
                              (lambda: strut.mesh(corners, {"a b": [range(8)]}), "has a blank"),
                              (lambda: strut.mesh(corners, {"a": np.ones((1, 8))}), "whole ones"),
                              (lambda: strut.voxels(np.zeros((2, 2, 2)), 1e-3), "none of them solid"),
+                             (lambda: strut.voxels(-np.ones((2, 2, 2), int), 1e-3), "none of them solid"),
+                             (lambda: strut.voxels(np.full((2, 2, 2), "1"), 1e-3), "an array of type"),
                              (lambda: strut.voxels(np.ones((2, 2, 2)), 0), "expected one or three numbers > 0")):
             with self.assertRaisesRegex(strut.Error, words):
                 wrong()

@@ -273,6 +273,10 @@ const std::vector<Case> pairs = {
      "m"},
     {"NodeSetNamedAll", R"(name="low")", R"(name="all")",
      "Node Sets > all: is the set of all points; expected another name"},
+    {"ProbeNamedAll", R"(<Parameter name="Interval")",
+     R"(<ParameterList name="Probes"> <ParameterList name="all">
+          <Parameter name="Point" type="string" value="0 0 0"/></ParameterList></ParameterList> <Parameter name="Interval")",
+     "History > Probes > all: is the set of all points; expected another name"},
     {"NodeSetInTime", "z &lt; 1e-3", "z &lt; t", "Node Sets > low: depends on t; expected an expression in x, y, z"},
 };
 INSTANTIATE_TEST_SUITE_P(Pairs, OneProblem, testing::ValuesIn(pairs), name_of);

@@ -528,6 +528,13 @@ TEST(DeckOfPeridigm, OurSecondSolverKeepsItsMeaning) {
     EXPECT_TRUE(deck.notes.empty());
   }
   EXPECT_FALSE(folder.read(two("Solver", "Solver 2", "")).next_solver->keeps_velocities);
+  EXPECT_NE(folder.error(two("Solver", "Solver 2", key("Wall Time", "double", "60")))
+                .find("Solver 2 > Wall Time: given; expected none"),
+            std::string::npos);
+  const std::string early =
+      changed(two("Solver", "Solver 2", ""), key("Final Time", "double", "2"), key("Final Time", "double", "0.5"));
+  EXPECT_NE(folder.error(early).find("Solver 2 > Final Time: '0.5'; expected > the Final Time of Solver (1), in s"),
+            std::string::npos);
   EXPECT_NE(folder.error(two("Solver", "Solver", "")).find("Solver: given 2 times; expected once"), std::string::npos);
   EXPECT_TRUE(
       folder.read(two("Solver1", "Solver 2", key("Initial Time", "double", "1") + list("Verlet", ""))).from_peridigm);

@@ -66,8 +66,10 @@ def voxels(solid, spacing, origin=(0, 0, 0), name="foam", gather=None, smallest=
     partly filled (tools/README.md); solid may then be the part of each voxel that is solid, 0 to 1, and cells that are
     less than `smallest` full join a neighbor."""
     solid = np.asarray(solid)
-    if solid.ndim != 3 or not np.any(solid):
-        raise _core.Error(f"voxels: an array of shape {solid.shape}{'' if np.any(solid) else ', none of them solid'}; expected x, y, z")
+    if solid.dtype.kind not in "biuf":
+        raise _core.Error(f"voxels: an array of type {solid.dtype}; expected truth values, or numbers from 0 to 1")
+    if solid.ndim != 3 or not np.any(solid > 0):
+        raise _core.Error(f"voxels: an array of shape {solid.shape}{'' if np.any(solid > 0) else ', none of them solid'}; expected x, y, z")
     edges = np.broadcast_to(np.asarray(spacing, float), 3)
     if not (np.all(edges > 0) and np.all(np.isfinite(edges))):
         raise _core.Error(f"voxels: a spacing of {spacing}; expected one or three numbers > 0, in m")
