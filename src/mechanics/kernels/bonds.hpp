@@ -110,16 +110,15 @@ struct OfCluster {
   void for_each(Visit&& visit) const {  // visit(j, 1 in the lanes that have j in their family, else 0)
     for_each(visit, [](int) {});
   }
-  // fetch(j) is called some entries ahead of visit(j): far ends are scattered in memory, and waiting for them would
-  // take half of the time.
+  // fetch(j) is called some entries ahead of visit(j), also for the first entries of the next list: far ends are
+  // scattered in memory, and waiting for them would take half of the time.
   template <class Visit, class Fetch>
   void for_each(Visit&& visit, const Fetch& fetch) const {
-    constexpr std::size_t ahead = 16;
-    const std::size_t size = cluster.near.size();
-    for (std::size_t n = 0; n < std::min(ahead, size); ++n) fetch(cluster.near[n]);
-    for (std::size_t n = 0; n < size; ++n) {
-      if (n + ahead < size) fetch(cluster.near[n + ahead]);
-      visit(cluster.near[n], small::ones_in(cluster.mask[n]));
+    constexpr std::size_t ahead = 32;
+    const int* near = cluster.near.data();
+    for (std::size_t n = 0; n < cluster.near.size(); ++n) {
+      fetch(near[std::min(n + ahead, cluster.to_end - 1)]);
+      visit(near[n], small::ones_in(cluster.mask[n]));
     }
   }
 };

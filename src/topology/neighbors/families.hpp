@@ -20,6 +20,7 @@ struct Cluster {
   std::span<const int> points;  // local indices; at most `width`
   std::span<const int> near;
   const std::uint8_t* mask;  // of near: bit l is set if near[n] is in the family of points[l]
+  std::size_t to_end;        // entries from near[0] to the end of all lists: those of the next clusters follow
 
   std::size_t family_size(std::size_t l) const {  // of points[l]
     std::size_t size = 0;
@@ -35,7 +36,8 @@ class ClusterLists {
   int count() const { return static_cast<int>(first_.size()) - 1; }
   Cluster operator[](int b) const {
     const std::span points(points_.data() + first_[b], points_.data() + first_[b + 1]);
-    return {points, std::span(near_.data() + start_[b], near_.data() + end_[b]), mask_.data() + start_[b]};
+    const std::span near(near_.data() + start_[b], near_.data() + end_[b]);
+    return {points, near, mask_.data() + start_[b], near_.size() - start_[b]};
   }
   std::size_t entries() const { return near_.size(); }
   double bytes() const {
