@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "contact/largest_eigenvalue.hpp"
-#include "contact/laws/friction.hpp"
+#include "contact/laws/contact_law.hpp"
 
 namespace strut::contact {
 

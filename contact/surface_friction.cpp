@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/laws/friction.hpp"
+#include "contact/laws/contact_law.hpp"
 #include "contact/surfaces.hpp"
 
 namespace strut::contact {

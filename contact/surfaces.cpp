@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "contact/largest_eigenvalue.hpp"
-#include "contact/laws/friction.hpp"
+#include "contact/laws/contact_law.hpp"
 #include "contact/own_surface.hpp"
 #include "contact/search/search.hpp"
 

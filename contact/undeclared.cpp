@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "contact/at_surface.hpp"
+#include "contact/own_surface.hpp"
 #include "topology/bounding_box.hpp"
 #include "topology/nearby_ranks.hpp"
 #include "topology/neighbors/cell_grid.hpp"

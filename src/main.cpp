@@ -12,7 +12,6 @@
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/launch.hpp"
 #include "base/parallel/threads.hpp"
-#include "base/whole_number.hpp"
 #include "deck/deck.hpp"
 #include "run/log.hpp"
 #include "run/simulation.hpp"

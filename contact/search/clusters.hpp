@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/search/candidates.hpp"
+#include "contact/search/pairs.hpp"
 
 namespace strut::contact {
 

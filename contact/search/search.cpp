@@ -7,8 +7,8 @@
 #include <unordered_map>
 
 #include "base/errors.hpp"
-#include "contact/search/candidates.hpp"
 #include "contact/search/clusters.hpp"
+#include "contact/search/pairs.hpp"
 #include "topology/bounding_box.hpp"
 #include "topology/nearby_ranks.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "advice/checks.hpp"
 #include "mechanics/expected_error.hpp"
-#include "mechanics/formulation/steepness.hpp"
+#include "mechanics/steepness.hpp"
 #include "mechanics/thin_members.hpp"
 #include "setup/found_points.hpp"
 

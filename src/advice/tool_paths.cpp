@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "conditions/crossing.hpp"
 #include "conditions/periodic_sides.hpp"
-#include "conditions/tool_gap.hpp"
 
 namespace strut {
 

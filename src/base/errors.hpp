@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-namespace strut {
+#include "base/parallel/communicator.hpp"
 
-class Communicator;
+namespace strut {
 
 class Error : public std::runtime_error {
  public:
@@ -21,7 +21,18 @@ void raise_together(const Communicator& communicator, const std::string& problem
 
 // Collective. Runs `action` on rank `root` only; its exception (Error or any std::exception) is thrown on all ranks.
 template <class Action>
-void run_on_root(const Communicator& communicator, Action&& action);
+void run_on_root(const Communicator& communicator, Action&& action) {
+  std::string problem;
+  if (communicator.rank() == 0) {
+    try {
+      action();
+    } catch (const std::exception& error) {
+      problem = error.what();
+      if (problem.empty()) problem = "unknown error";
+    }
+  }
+  raise_together(communicator, problem);
+}
 
 // " (did you mean 'Horizon'?)", or "" if nothing in `valid` is close to `name`.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& valid);
@@ -30,5 +41,3 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
 std::string joined(const std::vector<std::string>& words, std::string_view separator = ", ");
 
 }  // namespace strut
-
-#include "base/errors_impl.hpp"

@@ -1,5 +1,6 @@
 #include "base/files.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+
+#include "base/errors.hpp"
 
 namespace strut {
 
@@ -156,5 +159,13 @@ std::string obstacle(const fs::path& file, FileKind kind) {
 fs::path before_of(const fs::path& checkpoint) { return checkpoint.string() + ".old"; }
 fs::path part_of(const fs::path& checkpoint) { return checkpoint.string() + ".part"; }
 fs::path lock_of(const fs::path& checkpoint) { return checkpoint.string() + ".lock"; }
+
+void force_to_disk(const std::filesystem::path& path) {
+  const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool good = handle >= 0 && ::fsync(handle) == 0;
+  const int why = errno;
+  if (handle >= 0) ::close(handle);
+  if (!good) throw Error(path.string() + ": cannot write it to disk: " + std::strerror(why));
+}
 
 }  // namespace strut

@@ -38,4 +38,8 @@ std::filesystem::path before_of(const std::filesystem::path& checkpoint);
 std::filesystem::path part_of(const std::filesystem::path& checkpoint);
 std::filesystem::path lock_of(const std::filesystem::path& checkpoint);
 
+// Forces everything written to the file so far to the disk, so that a power failure does not lose it. Throws
+// Error.
+void force_to_disk(const std::filesystem::path& path);
+
 }  // namespace strut

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "topology/sent_to_ranks.hpp"
+#include "topology/nearby_ranks.hpp"
 
 namespace strut {
 

@@ -1,4 +1,4 @@
-// Finds tools between points that are bonded to each other.
+// Rigid tools where they must not be: between points that are bonded to each other, and in another tool.
 #pragma once
 
 #include <optional>
@@ -23,5 +23,11 @@ std::optional<Crossing> find_crossing(const RigidTool& tool, double t, const Dom
 
 // Collective. The present positions of owned points and ghosts.
 std::vector<Vector> present_places(const Domain& domain);
+
+// Gap between two tools at time t (s), m; not positive if they overlap; −∞ for infinite tools that are not parallel.
+double gap_between(const RigidTool& one, const RigidTool& other, double t);
+
+// True if forces drive at least one of two tools, so that the deck does not intend them to overlap.
+inline bool may_meet(const RigidTool& one, const RigidTool& other) { return one.free || other.free; }
 
 }  // namespace strut

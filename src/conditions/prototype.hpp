@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "conditions/condition.hpp"
-#include "conditions/initial_displacement.hpp"
-#include "conditions/initial_velocity.hpp"
+#include "conditions/initial_state.hpp"
 #include "conditions/periodic_sides.hpp"
 
 namespace strut {

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "base/math/rotation.hpp"
-#include "fracture/strain_jump.hpp"
+#include "fracture/separation.hpp"
 #include "materials/moved_stress.hpp"
 #include "materials/tangent.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/bonds.hpp"
-#include "mechanics/shape_tensor.hpp"
+#include "mechanics/steepness.hpp"
 
 namespace strut {
 

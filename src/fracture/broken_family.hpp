@@ -1,7 +1,7 @@
 // A point whose bonds have broken.
 #pragma once
 
-#include "fracture/bond_work_balance.hpp"
+#include "fracture/work_balance.hpp"
 #include "mechanics/body.hpp"
 
 namespace strut {

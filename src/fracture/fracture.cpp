@@ -7,7 +7,7 @@
 #include "base/timing.hpp"
 #include "fracture/broken_family.hpp"
 #include "fracture/critical_stretch.hpp"
-#include "fracture/spring_work_balance.hpp"
+#include "fracture/work_balance.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/reflected.hpp"

@@ -20,8 +20,8 @@
 
 #include "base/archive.hpp"
 #include "fracture/bond_energies.hpp"
-#include "fracture/bond_work_balance.hpp"
 #include "fracture/travel.hpp"
+#include "fracture/work_balance.hpp"
 #include "mechanics/bond_breaking.hpp"
 
 namespace strut {

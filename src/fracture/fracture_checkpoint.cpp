@@ -5,9 +5,9 @@
 
 #include "fracture/broken_family.hpp"
 #include "fracture/fracture.hpp"
-#include "mechanics/formulation/steepness.hpp"
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/reflected.hpp"
+#include "mechanics/steepness.hpp"
 
 namespace strut {
 

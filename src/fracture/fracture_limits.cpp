@@ -6,8 +6,8 @@
 
 #include "base/errors.hpp"
 #include "fracture/fracture.hpp"
-#include "fracture/strain_jump.hpp"
-#include "mechanics/formulation/steepness.hpp"
+#include "fracture/separation.hpp"
+#include "mechanics/steepness.hpp"
 #include "topology/planes_through.hpp"
 
 namespace strut {

@@ -1,8 +1,10 @@
-// Two halves of a lattice that are pulled apart.
+// Two halves of a lattice that are pulled apart, and how the stress follows the jump of the gradient where bonds break.
 #pragma once
 
 #include <vector>
 
+#include "base/math/tensors.hpp"
+#include "materials/law.hpp"
 #include "mechanics/body.hpp"
 
 namespace strut {
@@ -38,5 +40,13 @@ double separation_of_cells(const PulledLattice& lattice);
 // The same for an ordinary lattice by bonds whose critical energy w_c is 1 J/m⁶, J/m² per J/m⁶; for another w_c
 // multiply by it.
 double separation_by_bond_energy(const PulledLattice& lattice);
+
+// Limit of the steepness of families with broken bonds, relative to an interior point: that of points at a corner,
+// which have an eighth of the family. A steeper point carries no stress.
+inline constexpr double steepness_of_corners = 8;
+
+// The fraction of a strain jump that the stress follows, for linear elasticity: the λ from 0 to 1 that minimizes the
+// energy W + λ σ:Δε + ½ λ² Δε:C:Δε.
+double part_that_releases(const materials::Moduli& moduli, const Tensor& strain, const Tensor& jump);
 
 }  // namespace strut

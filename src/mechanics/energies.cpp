@@ -2,10 +2,43 @@
 
 #include <numeric>
 
-#include "mechanics/point_energy.hpp"
+#include "mechanics/steepness.hpp"
 #include "topology/parallel_for.hpp"
 
 namespace strut {
+
+namespace {
+
+template <class L>
+PointEnergy law_energy(const Body& body, const MaterialBlock& block, const L& law, std::size_t k) {
+  const int places = block.points_per_cell();
+  const bool carries_stress = steepness(body, block.points[k]) > 0;
+  PointEnergy sum;
+  for (int q = 0; q < places; ++q) {
+    const MaterialPoint point = body.integration_point(block, k, q);
+    const auto state = block.state_of<L>(block.place(k, q));
+    const double J = point.deformation_gradient.determinant();
+    if (carries_stress) sum.elastic += materials::stored_energy_of(law, point.stress, state, J) / places;
+    sum.dissipated += law.dissipation(state) / places;
+    if constexpr (materials::tells_heat<L>) sum.heat += law.heat(state) / places;
+    if (!block.viscous.empty()) sum.dissipated += block.viscous[block.place(k, q)].work / places;
+  }
+  return sum;
+}
+
+}  // namespace
+
+PointEnergy law_energy(const Body& body, const MaterialBlock& block, std::size_t k) {
+  return std::visit([&](const auto& law) { return law_energy(body, block, law, k); }, block.material.law);
+}
+
+// ½ K θ² + 15μ/(2m) Σ ω V (e − θ|ξ|/3)²; for a whole family the sum is Σ ω V e² − m θ²/9. With the initial m, this
+// stays the potential of the forces as bonds break.
+double ordinary_energy(const MaterialBlock& block, const OrdinaryPoint& point, double square) {
+  const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
+  const double theta2 = point.dilatation * point.dilatation;
+  return 0.5 * moduli.bulk * theta2 + 7.5 * moduli.shear * (square / point.weighted_volume - theta2 / 9);
+}
 
 Energies stored_energies(const Body& body) {
   Energies sum;

@@ -5,6 +5,17 @@
 
 namespace strut {
 
+// The energy that one point stores and has dissipated.
+struct PointEnergy {
+  double elastic = 0, dissipated = 0, heat = 0;  // J/m³ of reference volume; heat: ρ c_p (T − T₀)
+};
+
+// Energy that the law of block.points[k] has stored and dissipated; not for ordinary points.
+PointEnergy law_energy(const Body& body, const MaterialBlock& block, std::size_t k);
+
+// Energy that an ordinary point stores, J/m³. `square`: Σ ω V e² over its family, m⁵.
+double ordinary_energy(const MaterialBlock& block, const OrdinaryPoint& point, double square);
+
 struct Energies {
   double elastic = 0, dissipated = 0, stabilization = 0, fracture = 0;  // J
   double heat = 0;  // J, ρ c_p (T − T₀); for information, not a term of the energy balance

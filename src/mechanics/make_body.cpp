@@ -6,10 +6,9 @@
 
 #include "materials/state_variables.hpp"
 #include "mechanics/formulation/consistency_correction.hpp"
-#include "mechanics/formulation/steepness.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
-#include "mechanics/shape_tensor.hpp"
+#include "mechanics/steepness.hpp"
 #include "topology/parallel_for.hpp"
 #include "topology/planes_through.hpp"
 

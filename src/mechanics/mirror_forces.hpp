@@ -1,10 +1,15 @@
-// The forces of symmetry planes: those that the images of points on the other side exert on a body.
+// The forces of symmetry planes and of periodic sides: those that the images of points on the other side exert on a
+// body.
 #pragma once
 
 #include "base/archive.hpp"
 #include "mechanics/body.hpp"
 
 namespace strut {
+
+// This rank's part of the force through the sides of each of domain.periods, along its axis, tension positive, N: the
+// change of the bonds' energy with the period. When to call it: as mirror_forces.
+std::vector<Vector> period_forces(const Body& body, int level, const std::vector<int>* moved);
 
 // The sides of a domain: its mirrors, or its periods. Their number, and the index of one's condition in the deck.
 inline std::size_t side_count(const Domain& domain) { return domain.mirrors.size() + domain.periods.size(); }

@@ -1,4 +1,4 @@
-// Means and sums over the points of a set, or over the layers of a profile, for the history: "Mean_X(foam)",
+// Means between rows of the history, and over points. Means and sums over the points of a set, or over the layers of a profile, for the history: "Mean_X(foam)",
 // "Sum_X(foam)".
 #pragma once
 
@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/archive.hpp"
+#include "base/parallel/communicator.hpp"
 #include "deck/sections/history.hpp"
 #include "output/observables.hpp"
 
@@ -62,5 +64,24 @@ void check_mean(const std::vector<Observable>& all, const std::vector<deck::Prof
 // Collective. `name`: "Mean_X", or with a set, block or profile in parentheses. Throws Error on all ranks.
 Mean mean_of(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const Body& body,
              const std::string& name, const std::string& where);
+
+// Mean forces of explicit steps between rows of the history; multiplied by the time in between they are impulses.
+class MeanForces {
+ public:
+  MeanForces(std::size_t columns, double initial_time) : since_(initial_time), passed_(columns), ahead_(columns) {}
+
+  // Adds this rank's impulses at a time of the solver, N s, one per column: the parts before and after that time.
+  void add(std::span<const double> before, std::span<const double> after);
+  // Collective; at the time of a row, after add(): mean forces from the previous row to this one, N, over all ranks. In
+  // the first row, before which no force has acted, 0.
+  std::vector<double> take(double time, const Communicator& communicator);
+
+  void serialize(Archive& archive);
+
+ private:
+  double since_;                // s, the time of the last row
+  std::vector<double> passed_;  // N s, from there to the last time
+  std::vector<double> ahead_;   // N s, of the last time, the part after it
+};
 
 }  // namespace strut

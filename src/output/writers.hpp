@@ -10,7 +10,7 @@
 #include "integrators/ledger.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/text/history.hpp"
-#include "output/mean_forces.hpp"
+#include "output/means.hpp"
 #include "output/schedule.hpp"
 #include "output/variables.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "base/errors.hpp"
 #include "conditions/crossing.hpp"
-#include "conditions/tool_gap.hpp"
 #include "contact/interpenetration.hpp"
 #include "contact/undeclared.hpp"
 

@@ -6,9 +6,9 @@
 #include <variant>
 
 #include "base/errors.hpp"
+#include "base/math/function.hpp"
 #include "base/parallel/communicator.hpp"
 #include "setup/contradictions.hpp"
-#include "setup/finite_value.hpp"
 #include "setup/open_ends.hpp"
 #include "setup/sudden_motion.hpp"
 #include "topology/point_group.hpp"

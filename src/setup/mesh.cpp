@@ -7,13 +7,13 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/math/function.hpp"
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
 #include "base/timing.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/grid/grid.hpp"
 #include "setup/blocks.hpp"
-#include "setup/finite_value.hpp"
 #include "setup/mirrors.hpp"
 #include "setup/periods.hpp"
 #include "topology/coincident.hpp"

@@ -9,7 +9,7 @@
 #include "base/errors.hpp"
 #include "conditions/symmetry_plane.hpp"
 #include "setup/blocks.hpp"
-#include "topology/cell_reach.hpp"
+#include "topology/cloud.hpp"
 
 namespace strut {
 

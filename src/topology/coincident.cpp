@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/parallel/gather_scatter.hpp"
-#include "topology/sent_to_ranks.hpp"
+#include "topology/nearby_ranks.hpp"
 
 namespace strut {
 

@@ -11,6 +11,14 @@
 
 namespace strut {
 
+// Sends records to given ranks.
+class Communicator;
+
+// Collective. `width` doubles per record; the k-th one goes to ranks[k], which ascend. Returns the records received by
+// this rank, also from itself, in the order of the ranks that sent them.
+std::vector<double> sent_to_ranks(std::span<const int> ranks, std::span<const double> records, int width,
+                                  const Communicator& communicator);
+
 // places[k] goes to ranks[k], in the order of ranks, and within each rank in the order of positions.
 struct NearbyRanks {
   std::vector<int> ranks, places;

@@ -96,4 +96,10 @@ std::vector<std::string> functions_in_expressions() {
   return names;
 }
 
+double finite_value(const Function& function, const Vector& X, double t) {
+  const double value = function.evaluate(X[0], X[1], X[2], t);
+  if (!std::isfinite(value)) throw Error(function.describe(X[0], X[1], X[2], t, value));
+  return value;
+}
+
 }  // namespace strut

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "base/build_facts.hpp"
-#include "base/whole_number.hpp"
 
 namespace strut {
 

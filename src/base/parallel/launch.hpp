@@ -1,7 +1,10 @@
 // The launcher of this process, from the environment: how many processes it started, and which one this is.
 #pragma once
 
+#include <charconv>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace strut {
 
@@ -14,8 +17,17 @@ struct Launch {
 // From mpirun of Open MPI, or of MPICH and its relatives, else from Slurm's srun, whose tasks may be the mpiruns.
 Launch launch_of_process();
 
-// Why `ranks` of a process are refused: a launcher of another MPI starts each process as a run of one rank, and all would
-// do the same work. "" if it is none. `command`: of the process, for the message.
+// Why `ranks` of a process are refused: a launcher of another MPI starts each process as a run of one rank, and all
+// would do the same work. "" if it is none. `command`: of the process, for the message.
 std::string wrong_launcher(const Launch& launch, int ranks, const std::string& command);
+
+// The integer in a word of a command line or of the environment; nullopt if the word is anything else, or exceeds an int.
+inline std::optional<int> whole_number(std::string_view word) {
+  int number = 0;
+  const char* const end = word.data() + word.size();
+  const auto [rest, problem] = std::from_chars(word.data(), end, number);
+  if (problem != std::errc() || rest != end) return std::nullopt;
+  return number;
+}
 
 }  // namespace strut

@@ -1,8 +1,7 @@
-#include "deck/laws/hyperelastic.hpp"
-
 #include <cmath>
 
 #include "deck/laws/constants.hpp"
+#include "deck/laws/each_law.hpp"
 #include "deck/numbers.hpp"
 
 namespace strut::deck {

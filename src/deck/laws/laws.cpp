@@ -1,11 +1,7 @@
 #include "deck/laws/laws.hpp"
 
 #include "deck/laws/constants.hpp"
-#include "deck/laws/hyperelastic.hpp"
-#include "deck/laws/metal.hpp"
-#include "deck/laws/metal_foam.hpp"
-#include "deck/laws/polymer_foam.hpp"
-#include "deck/laws/user_library.hpp"
+#include "deck/laws/each_law.hpp"
 
 namespace strut::deck {
 

@@ -1,9 +1,8 @@
-#include "deck/laws/metal.hpp"
-
 #include <cmath>
 #include <sstream>
 
 #include "deck/laws/constants.hpp"
+#include "deck/laws/each_law.hpp"
 #include "deck/laws/flow_stress.hpp"
 #include "deck/laws/one_of.hpp"
 #include "deck/laws/thermal_flow.hpp"

@@ -1,8 +1,7 @@
-#include "deck/laws/metal_foam.hpp"
-
 #include <cmath>
 
 #include "deck/laws/constants.hpp"
+#include "deck/laws/each_law.hpp"
 
 namespace strut::deck {
 

@@ -1,11 +1,10 @@
-#include "deck/laws/polymer_foam.hpp"
-
 #include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <vector>
 
 #include "deck/laws/constants.hpp"
+#include "deck/laws/each_law.hpp"
 #include "deck/laws/tables.hpp"
 #include "deck/numbers.hpp"
 

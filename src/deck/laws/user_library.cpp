@@ -1,6 +1,5 @@
-#include "deck/laws/user_library.hpp"
-
 #include "deck/laws/constants.hpp"
+#include "deck/laws/each_law.hpp"
 
 namespace strut::deck {
 
@@ -13,8 +12,9 @@ const TextKey library({.name = "Library", .meaning = "The shared object, by its 
 const ChoiceKey<LibraryInterface> interface(
     {.name = "Interface",
      .fallback = "strut",
-     .meaning = "Interface of the function: materials/strut_law.h, or a user subroutine of Abaqus, compiled with 8-byte "
-                "reals. It is called in the unrotated frame: DROT is 1, DFGRD0 and DFGRD1 are stretches."},
+     .meaning =
+         "Interface of the function: materials/strut_law.h, or a user subroutine of Abaqus, compiled with 8-byte "
+         "reals. It is called in the unrotated frame: DROT is 1, DFGRD0 and DFGRD1 are stretches."},
     {{"strut", LibraryInterface::strut}, {"UMAT", LibraryInterface::umat}, {"VUMAT", LibraryInterface::vumat}});
 const OptionalKey<std::string> function_name(
     {.name = "Function", .meaning = "Its name in the library; without it strut_law, umat_ or vumat_."});

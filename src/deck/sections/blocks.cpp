@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "deck/sections/two_keys.hpp"
+#include "deck/sections/several_sections.hpp"
 
 namespace strut::deck {
 

@@ -2,7 +2,7 @@
 
 #include "deck/numbers.hpp"
 #include "deck/problems.hpp"
-#include "deck/sections/numbered_sets.hpp"
+#include "deck/sections/node_sets.hpp"
 #include "deck/sections/tools.hpp"
 #include "deck/values.hpp"
 

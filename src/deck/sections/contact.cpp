@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "deck/sections/contact_laws.hpp"
-#include "deck/sections/from_peridigm.hpp"
-#include "deck/sections/two_keys.hpp"
+#include "deck/sections/several_sections.hpp"
 
 namespace strut::deck {
 

@@ -1,7 +1,7 @@
 #include "deck/sections/damage_models.hpp"
 
 #include "deck/problems.hpp"
-#include "deck/sections/two_keys.hpp"
+#include "deck/sections/several_sections.hpp"
 #include "deck/values.hpp"
 
 namespace strut::deck {

@@ -4,7 +4,7 @@
 
 #include "deck/problems.hpp"
 #include "deck/sections/bond_filters.hpp"
-#include "deck/sections/from_peridigm.hpp"
+#include "deck/sections/several_sections.hpp"
 #include "deck/values.hpp"
 
 namespace strut::deck {

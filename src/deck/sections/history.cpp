@@ -1,9 +1,8 @@
 #include "deck/sections/history.hpp"
 
 #include "deck/sections/node_sets.hpp"
+#include "deck/sections/several_sections.hpp"
 #include "deck/sections/tools.hpp"
-#include "deck/sections/variables.hpp"
-#include "deck/sections/when.hpp"
 
 namespace strut::deck {
 
@@ -60,12 +59,12 @@ const Section profiles = {
         {.name = any_name, .required = true, .meaning = "One set of layers.", .keys = {across, layers, node_set}}}};
 
 const VectorKey place({.name = "Point", .unit = "m", .meaning = "Position in the reference state."});
-const Section probes = {
-    .name = "Probes",
-    .meaning =
-        "Positions whose nearest points the history follows, as `Displacement_Z(tip)`: each is a node set of one point, "
-        "which a run tells at its start.",
-    .sections = {{.name = any_name, .required = true, .meaning = "One probe.", .keys = {place}}}};
+const Section probes = {.name = "Probes",
+                        .meaning =
+                            "Positions whose nearest points the history follows, as `Displacement_Z(tip)`: each is a "
+                            "node set of one point, "
+                            "which a run tells at its start.",
+                        .sections = {{.name = any_name, .required = true, .meaning = "One probe.", .keys = {place}}}};
 
 Profile read_profile(const Values& values, Problems& problems) {
   return {values.name(), read_direction(values, across, problems), values[layers], values[node_set]};

@@ -1,11 +1,13 @@
 // The section Materials.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "deck/forward.hpp"
+#include "deck/problems.hpp"
 #include "materials/laws.hpp"
 #include "mechanics/formulation/formulation.hpp"
 #include "mechanics/stabilization/stabilization.hpp"
@@ -25,5 +27,9 @@ struct Material {
 
 Section materials_section();
 std::vector<Material> read_materials(const Values& deck, Problems& problems);
+
+// Loads the library of each material that has one, by its path from the folder of the deck, and tries it with steps of
+// an undeformed point.
+void load_user_libraries(std::vector<Material>& materials, const std::filesystem::path& folder, Problems& problems);
 
 }  // namespace strut::deck

@@ -9,6 +9,7 @@
 #include "base/math/function.hpp"
 #include "base/math/tensors.hpp"
 #include "deck/forward.hpp"
+#include "deck/schema.hpp"
 
 namespace strut::deck {
 
@@ -24,5 +25,15 @@ struct NodeSet {
 
 Section node_sets_section();
 std::vector<NodeSet> read_node_sets(const Values& deck, Problems& problems);
+
+// The section with sets by number, as in Peridigm's decks: parameters among the boundary conditions.
+inline const char* const boundary_conditions = "Boundary Conditions";
+
+Key numbered_set();
+
+// Numbers in files are read later by read_numbers, because that accesses the disk.
+void add_numbered_sets(const Values& deck, const std::filesystem::path& deck_file, std::vector<NodeSet>& sets,
+                       Problems& problems);
+void read_numbers(std::vector<NodeSet>& sets, Problems& problems);
 
 }  // namespace strut::deck

@@ -1,8 +1,6 @@
 #include "deck/sections/output.hpp"
 
-#include "deck/sections/from_peridigm.hpp"
-#include "deck/sections/variables.hpp"
-#include "deck/sections/when.hpp"
+#include "deck/sections/several_sections.hpp"
 
 namespace strut::deck {
 

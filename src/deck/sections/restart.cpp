@@ -1,6 +1,6 @@
 #include "deck/sections/restart.hpp"
 
-#include "deck/sections/when.hpp"
+#include "deck/sections/several_sections.hpp"
 
 namespace strut::deck {
 

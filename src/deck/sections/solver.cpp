@@ -1,8 +1,7 @@
 #include "deck/sections/solver.hpp"
 
 #include "deck/numbers.hpp"
-#include "deck/sections/from_peridigm.hpp"
-#include "deck/sections/two_keys.hpp"
+#include "deck/sections/several_sections.hpp"
 
 namespace strut::deck {
 

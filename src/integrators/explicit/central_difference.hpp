@@ -2,12 +2,11 @@
 #pragma once
 
 #include "conditions/conditions.hpp"
-#include "conditions/mid_steps.hpp"
+#include "conditions/impulse_work.hpp"
 #include "contact/contact.hpp"
 #include "fracture/fracture.hpp"
-#include "integrators/explicit/energy_account.hpp"
+#include "integrators/explicit/accounts.hpp"
 #include "integrators/explicit/multi_time_stepping.hpp"
-#include "integrators/explicit/reaction_account.hpp"
 #include "integrators/explicit/step_length.hpp"
 #include "mechanics/mechanics.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "base/timing.hpp"
 #include "integrators/quasi_static/line_search.hpp"
-#include "integrators/quasi_static/preconditioner_matrix.hpp"
+#include "integrators/quasi_static/tangent_factor.hpp"
 
 namespace strut {
 

@@ -15,7 +15,6 @@
 #include "io/netcdf/netcdf_lists.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
-#include "io/to_disk.hpp"
 
 namespace strut::io {
 

@@ -18,7 +18,6 @@
 #include "io/netcdf/classic_netcdf.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
-#include "io/to_disk.hpp"
 
 namespace strut::io {
 

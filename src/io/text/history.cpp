@@ -8,7 +8,6 @@
 #include "base/build_facts.hpp"
 #include "base/errors.hpp"
 #include "base/files.hpp"
-#include "io/to_disk.hpp"
 
 namespace strut::io {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/math/rotation.hpp"
+#include "mechanics/energies.hpp"
 #include "mechanics/kernels/ordinary_bonds.hpp"
-#include "mechanics/point_energy.hpp"
-#include "mechanics/shape_tensor.hpp"
+#include "mechanics/steepness.hpp"
 
 namespace strut {
 

@@ -187,7 +187,6 @@ void LatticeFamilies::make_slots(const Box& box, const std::vector<int>& members
   }
   places_ = {0};
   shape_ = box.shape;
-  first_plane_ = box.low[2];
   for (int place = 0; place < static_cast<int>(grid_.size()); ++place) {
     if (grid_[place] == 0) continue;
     grid_[place] = slots();

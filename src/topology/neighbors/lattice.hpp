@@ -82,10 +82,9 @@ class LatticeFamilies {
   int place(int slot) const { return places_[slot]; }
   bool is_owned(int slot) const { return owned_[slot] != 0; }  // has a point that this rank owns
 
-  // A position in the grid is (z · shape()[1] + y) · shape()[0] + x, x in pencils; z = 0 is the plane first_plane() of
-  // the body. Points are farther from its faces than the reach of a stencil.
+  // A position in the grid is (z · shape()[1] + y) · shape()[0] + x, x in pencils; z = 0 is the lowest plane that
+  // this rank stores. Points are farther from its faces than the reach of a stencil.
   const Eigen::Array3i& shape() const { return shape_; }
-  int first_plane() const { return first_plane_; }
 
   // True if the cell before it in x is empty, so that a run of points begins here.
   bool begins_run(int i) const;
@@ -113,7 +112,7 @@ class LatticeFamilies {
   std::vector<std::uint8_t> filled_;  // of slots: a bit for each cell with a point
   std::vector<int> cell_;             // of points
   Eigen::Array3i shape_;
-  int first_plane_ = 0, reach_ = 0, rows_across_ = 1;
+  int reach_ = 0, rows_across_ = 1;
 };
 
 }  // namespace strut

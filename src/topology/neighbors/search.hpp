@@ -1,13 +1,31 @@
 // Families found by a search, for all points without a stencil.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "topology/neighbors/candidates.hpp"
 #include "topology/neighbors/cracks.hpp"
-#include "topology/neighbors/left_out.hpp"
 
 namespace strut {
+
+// Visibility: the points within the horizon of each owned point to which it is not bonded, because no material connects
+// them. Empty if no block asks for it.
+struct LeftOut {
+  std::vector<std::size_t> start;
+  std::vector<int> members;  // ascending for each point
+
+  bool contains(int i, int j) const {
+    if (start.empty()) return false;
+    return std::binary_search(members.begin() + start[i], members.begin() + start[i + 1], j);
+  }
+};
+
+// Collective.
+LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Mirrored& mirrored,
+                 const std::vector<Offered>& offers, const CandidatePool& pool, const CellGrid& grid, double reach,
+                 const Communicator& communicator);
 
 // Data for a search of families that are no stencils.
 struct Search {

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "conditions/tool_gap.hpp"
+#include "conditions/crossing.hpp"
 
 namespace strut {
 namespace {

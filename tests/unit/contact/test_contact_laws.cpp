@@ -1,7 +1,7 @@
 // The laws of contact and friction against their formulas.
 #include <gtest/gtest.h>
 
-#include "contact/laws/friction.hpp"
+#include "contact/laws/contact_law.hpp"
 #include "contact/laws/laws.hpp"
 
 namespace strut::contact {

@@ -5,7 +5,6 @@
 #include <random>
 
 #include "integrators/quasi_static/block_factors.hpp"
-#include "integrators/quasi_static/preconditioner_matrix.hpp"
 #include "integrators/quasi_static/tangent_factor.hpp"
 #include "verification/loading.hpp"
 

@@ -1,8 +1,11 @@
-#include "mechanics/shape_tensor.hpp"
+#include "mechanics/steepness.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/bonds.hpp"
+#include "topology/planes_through.hpp"
 
 namespace strut {
 
@@ -23,6 +26,16 @@ Symmetric inverse_of(const Tensor& K) {
   const Eigen::SelfAdjointEigenSolver<Tensor> eigen(K, Eigen::EigenvaluesOnly);
   const bool spans = eigen.eigenvalues()[0] > flattest * eigen.eigenvalues()[2];
   return spans ? symmetric_part(K.inverse()) : Symmetric(Symmetric::Zero());
+}
+
+double steepness(const Body& body, int i) {
+  const bool is_cell = body.block_of(i).is_quadratic();
+  return body.domain.volume(i) * (is_cell ? body.fits->steepness(i) : trace(body.shape_inverse[i]));
+}
+
+double flatness(const Domain& domain, int i) {
+  const double volume = coincident_images(domain, i) * domain.volume(i);
+  return std::pow(volume, 5.0 / 3) * family_spread(domain, i).inverse().trace();
 }
 
 }  // namespace strut

@@ -1,4 +1,4 @@
-#include "conditions/initial_displacement.hpp"
+#include "conditions/initial_state.hpp"
 
 #include "conditions/value_at_point.hpp"
 
@@ -9,6 +9,12 @@ void InitialDisplacement::set_initial_state(const std::vector<int>& points, doub
     for (const int i : points) {
       body.domain.sites[i].current[c] = body.domain.reference(i)[c] + value_at_point(value, body, i, t);
     }
+  }
+}
+
+void InitialVelocity::set_initial_state(const std::vector<int>& points, double t, Body& body) const {
+  for (const int c : components) {
+    for (const int i : points) body.velocity[i][c] = value_at_point(value, body, i, t);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "topology/cell_reach.hpp"
+#include "topology/cloud.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,15 @@
-// How strongly the deformation gradient of a point depends on the positions of its family.
+// The shape tensor of a family, and how strongly the deformation gradient depends on the positions in it.
 #pragma once
 
 #include "mechanics/body.hpp"
 
 namespace strut {
+
+// K = Σ ω V ξ⊗ξ over the present family of a point, without broken bonds, m⁵.
+Tensor shape_tensor(const Body& body, int i);
+
+// K⁻¹, 1/m⁵; zero if the bonds do not span space, up to round-off.
+Symmetric inverse_of(const Tensor& K);
 
 // V tr K⁻¹ of an owned point, 1/m²: its factor in ω² by correspondence; by quadratic correspondence V κ of its cell. It
 // is 0 if the point carries no stress.

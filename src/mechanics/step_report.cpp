@@ -1,4 +1,4 @@
-#include "mechanics/failure.hpp"
+#include "mechanics/step_report.hpp"
 
 #include <sstream>
 
