@@ -45,7 +45,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   deck.history = read_history(values, whole, problems);
   add_probes(values, deck.node_sets);
   deck.restart = read_restart(values, file, problems);
-  if (steps_follow && values.has_section("Restart") && deck.restart.enabled) {
+  if (steps_follow && deck.restart.asked_for && deck.restart.enabled) {
     problems.add("Restart", "beside 'Solver 2'; expected none: a run of two solvers writes no checkpoints");
   }
   if (steps_follow) deck.restart.enabled = false;

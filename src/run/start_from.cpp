@@ -75,7 +75,7 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
   } catch (const Error& error) {
     std::string why = error.what();
     run_on_root(communicator, [&] {
-      if (is_of_kind(file_, FileKind::result)) {
+      if (std::filesystem::exists(file_) && is_of_kind(file_, FileKind::result)) {
         why = file_.string() +
               " is a result: its frames do not hold the state of the laws (their stress, F, the steps "
               "of each point); expected a checkpoint, which the section Restart in that run's deck keeps";
@@ -123,7 +123,7 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
     for (int i = 0; i < body.owned(); ++i)
       body.velocity[i] += 0.5 * last_step / body.density[i] * body.force_density[i];
   }
-  if (!goes_on_) body.previous_velocity = body.velocity;
+  if (!goes_on_) body.previous_velocity = *body.velocity;  // its values
   begin_from_here(deck, !goes_on_, scene, communicator_);
   return (parts.note.empty() ? "" : "WARNING: " + parts.note + "\n") + story(deck, scene);
 }

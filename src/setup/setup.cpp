@@ -90,7 +90,7 @@ deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& 
   next.next_solver.reset();
   next.solver.rebalance = std::numeric_limits<double>::infinity();  // another partition begins with a body at rest
   if (!next.solver.keeps_velocities) std::ranges::fill(scene.body.velocity, Vector::Zero());
-  scene.body.previous_velocity = scene.body.velocity;
+  scene.body.previous_velocity = *scene.body.velocity;  // its values: a field assigned to another would be one with it
   scene.conditions = {};
   scene.tools.clear();
   scene.warnings.clear();

@@ -18,7 +18,7 @@ import restarts  # noqa: E402  its scenes: no two points alike, contact, frictio
 
 FIELDS = ("Displacement", "Velocity", "Cauchy_Stress", "Deformation_Gradient")
 # What counts work from the start of a run on.
-OF_WORK = ("Work", "Balance", "Gained", "Contact_Energy", "Step")
+OF_WORK = ("Tool_Work", "Contact_Work", "External_Work", "Balance_Error")
 
 
 def scene(name):
@@ -27,6 +27,7 @@ def scene(name):
     pathlib.Path("scene.xml").write_text(restarts.section(name, *restarts.SCENES[name]()).replace(f' name="{name}"', "", 1))
     deck = strut.Deck("scene.xml")
     del deck["Output"], deck["History"]["Filename"]
+    deck["History"]["Frequency"] = 1
     return deck
 
 
@@ -66,11 +67,12 @@ class Starts(unittest.TestCase):
             one, other = (each.whole(name) for each in (whole, run))
             self.assertLessEqual(np.abs(one - other).max(), tolerance * np.abs(one).max(), name)
         times = whole.history["Time"]
-        rows = [np.flatnonzero(times == t)[0] for t in run.history["Time"] if t in times]
-        self.assertGreater(len(rows), 2)
         mine = np.isin(run.history["Time"], times)
+        mine[0] = False  # reactions are means since the row before
+        rows = np.searchsorted(times, run.history["Time"][mine])
+        self.assertGreater(len(rows), 2)
         for name, column in whole.history.items():
-            if any(word in name for word in OF_WORK):
+            if name in OF_WORK:
                 continue
             scale = max(np.abs(column).max(), 1e-300)
             self.assertLessEqual(np.abs(column[rows] - run.history[name][mine]).max() / scale, tolerance, name)
@@ -88,10 +90,17 @@ class Starts(unittest.TestCase):
             with self.subTest(name):
                 self.goes_on(scene(name), 40)
 
-    def test_load_steps_go_on_with_the_same_bits(self):
+    def test_load_steps_go_on_to_the_same_equilibria(self):
+        """Of as many load steps: their lengths differ by round-off, which Newton's last iterations take up."""
         for name in ("press", "rubbing"):
             with self.subTest(name):
-                self.goes_on(scene(name), 8)
+                deck = scene(name)
+                left = {**deck["Solver"], "QuasiStatic": {**deck["Solver"]["QuasiStatic"], "Number of Load Steps": 12}}
+                whole = strut.run(deck)
+                first = ended(deck, 8)
+                self.assertEqual(first.steps, 8)
+                run = strut.run(start(but(deck, Solver=left), "first.restart", first.time))
+                self.assertGoesOn(whole, run, 1e-9)
 
     def test_every_body_goes_on_with_the_same_bits(self):
         """Formulations and laws, symmetry planes, periodic sides, mass scaling."""
@@ -105,14 +114,15 @@ class Starts(unittest.TestCase):
                 "cells": {**hot, "Formulation": "Quadratic Correspondence"}}
         if "STRUT_USER_J2" in os.environ:
             laws["user"] = {**metal, "Material Model": "User Library", "Library": os.environ["STRUT_USER_J2"], "Interface": "UMAT",
-                            "Constants": [70e9, 0.3, 200e6, 1e9], "State Variables": 1, "Yield Stress": None}
+                            "Constants": [70e9 / 1.2, 70e9 / 2.6, 200e6, 1e9], "State Variables": 1, "Yield Stress": None}
         plane = {"Type": "Symmetry Plane", "Node Set": "block_xmax", "Point": [4 * SPACING, 0, 0], "Normal": [-1, 0, 0]}
         sides = {"Type": "Periodic Sides", "Coordinate": "y", "Lower": 0.0, "Upper": 5 * SPACING, "Stretch": "1 + 100*t"}
         for name, material in laws.items():
             for images in ({}, {"images": plane}, {"images": sides}):
                 with self.subTest(name, images=images):
                     deck = block.deck(Materials={"metal": material})
-                    solver = {"Final Time": 4e-6, "Verlet": {"Mass Scaling dt": 1.3e-7}} if name == "elastic" and not images else deck["Solver"]
+                    solver = {"rubber": {"Final Time": 2e-5}, "elastic": {"Final Time": 4e-6, "Verlet": {"Mass Scaling dt": 1.3e-7}}}
+                    solver = solver.get("" if images and name == "elastic" else name, deck["Solver"])
                     conditions = {**deck["Boundary Conditions"], **images}
                     self.goes_on(but(deck, Boundary_Conditions=conditions, Solver=solver), 12, block.mesh())
 
@@ -144,11 +154,12 @@ class Starts(unittest.TestCase):
         """A block is crushed fast, let go, and found at rest; it is struck; its balance counts from the start."""
         deck = block.deck()
         first = ended(deck, 30, block.mesh())
-        energy = first.history["Elastic_Energy"][-1] + first.history["Dissipated_Energy"][-1]
+        energy = first.history["Elastic_Energy"][-1] + first.history["Plastic_Work"][-1]
         foot = {"foot": deck["Boundary Conditions"]["foot"]}
         blow = {"blow": {"Type": "Initial Velocity", "Node Set": "block_zmax", "Coordinate": "z", "Value": "-10"}, **foot}
         surface = {"Models": {"touch": {"Contact Model": "Surface"}},
                    "Interactions": {"itself": {"First Block": "block", "Second Block": "block", "Contact Model": "touch"}}}
+        deck = but(deck, History={"Frequency": 1})
         rest = {"QuasiStatic": {"Number of Load Steps": 2}, "Final Time": 1.0}
         for what, sections in {"let go": {"Boundary Conditions": foot}, "struck": {"Boundary Conditions": blow},
                                "with contact": {"Boundary Conditions": blow, "Contact": surface},
@@ -157,12 +168,13 @@ class Starts(unittest.TestCase):
                 with self.subTest(what, keep=keep):
                     run = strut.run(but(start(deck, "first.restart", keep_velocities=keep), **sections), block.mesh())
                     row = {name: column[0] for name, column in run.history.items()}
-                    held = row["Elastic_Energy"] + row["Dissipated_Energy"]
+                    held = row["Elastic_Energy"] + row["Plastic_Work"]
                     self.assertAlmostEqual(held / energy, 1, delta=0.02)  # a step later
                     self.assertEqual(row["Time"], 0)
                     self.assertLess(run.history["Balance_Error"][0], 1e-12)  # round-off
-                    # Equilibria: one step takes the whole load off, by the rule of the trapezoid.
-                    self.assertLess(run.history["Balance_Error"][-1], 0.05 if what == "at rest" else 2e-3)
+                    # Explicit steps: some 1e-3 where a wave of the whole stress runs through metal in flow. Equilibria:
+                    # two steps take the whole load off, by the rule of the trapezoid.
+                    self.assertLess(run.history["Balance_Error"][-1], 0.05 if what == "at rest" else 1e-3)
 
     def test_what_cannot_start_is_refused_by_name(self):
         deck = block.deck(Output=block.output("first.e"))
