@@ -17,6 +17,7 @@ namespace strut::mesh {
 namespace {
 
 constexpr double most_cells = 1e8;
+constexpr double most_sparse_voxels = 1e9;  // of a foam or lattice, most of them void: 4 bytes each
 
 // The radius at zmax divided by that at zmin.
 double taper_of(const Body& body) { return body.shape == Body::Shape::cone ? body.top_radius / body.radius : 1; }
@@ -33,10 +34,12 @@ double height(const Body& body) { return body.shape == Body::Shape::box ? body.s
 
 void check_cells(const Body& body, const Vector& extent) {
   const int factor = std::max(1, body.cells);
+  const bool is_sparse = body.cells > 0 && (body.shape == Body::Shape::foam || body.shape == Body::Shape::lattice);
+  const double most = is_sparse ? most_sparse_voxels : most_cells;
   const Vector cells = extent / body.spacing;
-  if (cells.maxCoeff() * factor <= most_cells && (cells.cwiseMax(1) * factor).prod() <= most_cells) return;
-  throw Error("body '" + body.name + "' would have more than 10⁸ " + (body.cells > 0 ? "voxels" : "cells") +
-              ": the spacing is too small");
+  if (cells.maxCoeff() * factor <= most && (cells.cwiseMax(1) * factor).prod() <= most) return;
+  throw Error("body '" + body.name + "' would have more than " + (is_sparse ? "10⁹ " : "10⁸ ") +
+              (body.cells > 0 ? "voxels" : "cells") + ": the spacing is too small");
 }
 
 void check_size(const Body& body) {

@@ -248,6 +248,7 @@ TEST_F(FoamRecipe, WrongRecipesAreRefused) {
       {"shape = foam\nsize = 1 1 0.3\nspacing = 0.01\ncell = 0.4\n" + density, "the box is smaller than a cell"},
       {"shape = foam\nsize = 1 1 1\nspacing = 0.05\ncell = 0.4\nrelative_density = 0.01\n", "take a smaller spacing"},
       {"shape = foam\nsize = 1 1 1\nspacing = 1e-4\ncell = 0.4\n" + density, "more than 10⁸ cells"},
+      {"shape = foam\nsize = 1 1 1\nspacing = 2e-3\ncells = 3\ncell = 0.4\n" + density, "more than 10⁹ voxels"},
       {cube + density + "sizes = 2\n", "line 7: sizes is '2', expected a number from 0 to 0.6"},
       {cube + density + "relax = 1.5\n", "expected a whole number from 0 to 1000"},
       {cube + density + "stretch = 1 1 9\n", "expected three numbers from 0.2 to 5"},
