@@ -272,8 +272,10 @@ std::string expressions() {
   return "\nAn expression has the operators `+ - * /`, `^` (power), comparisons and `&& || !` (1 or 0), and the "
          "functions " +
          joined(functions_in_expressions()) +
-         ". `pow` and `atan2` take two arguments, `gamma` is Γ, `j0 j1 i0 i1` are Bessel's. There is no `abs` (it is "
-         "`fabs`), `min`, `max` or `?:`. `table(t, 0, 0, 1e-3, 5)` is 0 at t = 0 and 5 at 1e-3, linear between and "
+         ". `pow`, `atan2`, `min` and `max` take two arguments, `gamma` is Γ, `j0 j1 i0 i1` are Bessel's. `t &lt; 1e-4 "
+         "? 5 "
+         ": 0` is 5 before t = 1e-4, 0 from then on. `table(t, 0, 0, 1e-3, 5)` is 0 at t = 0 and 5 at 1e-3, linear "
+         "between and "
          "constant beyond. Statements may assign to `value`: `value = 0; if (t &lt; 1e-4) { value = 5*sin(x); }`, with "
          "`if`, `else` and variables (`double r = x*x;`), without loops. A sign and a power need brackets, `-(x^2)` or "
          "`(-x)^2`. At most 10,000 characters. In XML `<` is written `&lt;` and `&` `&amp;`.\n";

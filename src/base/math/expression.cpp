@@ -15,6 +15,10 @@ double bessel_i(double order, double x) {
   return std::fabs(x) > largest_exponent ? INFINITY : std::cyl_bessel_i(order, std::fabs(x));
 }
 
+// NaN if one of them is.
+double least(double a, double b) { return std::isnan(a) || a < b ? a : b; }
+double largest(double a, double b) { return std::isnan(a) || a > b ? a : b; }
+
 double i0(double x) { return bessel_i(0, x); }
 double i1(double x) { return std::copysign(bessel_i(1, x), x); }
 
@@ -134,7 +138,10 @@ double Expression::operator()(double x, double y, double z, double t) const {
 const std::vector<MathFunction>& math_functions() {
   using std::acos, std::asin, std::atan, std::cos, std::cosh, std::erf, std::erfc, std::exp, std::fabs, std::log,
       std::log10, std::sin, std::sinh, std::sqrt, std::tan, std::tanh, std::tgamma;
-  static const std::vector<MathFunction> all{{"fabs", 1, fabs},
+  static const std::vector<MathFunction> all{{"abs", 1, fabs},
+                                             {"fabs", 1, fabs},
+                                             {"min", 2, nullptr, least},
+                                             {"max", 2, nullptr, largest},
                                              {"sqrt", 1, sqrt},
                                              {"pow", 2, nullptr, [](double a, double b) { return std::pow(a, b); }},
                                              {"exp", 1, exp},

@@ -1,8 +1,8 @@
 // Compilation, by recursive descent:
-//   statements: { [double | int] name = or ; | if ( or ) { statements } [else if …] [else { statements }] }
-//   or, and, equality, order, sum, product: operands with operators of one rank between, from the left
-//   power: {- | + | !} primary [^ power];  primary: number | name | function ( … ) | ( or ) | table ( or {, place,
-//   value} )
+//   statements: { [double | int] name = expression ; | if ( expression ) { statements } [else if …] [else { statements
+//   }] } expression: or [? expression : expression] or, and, equality, order, sum, product: operands with operators of
+//   one rank between, from the left power: {- | + | !} primary [^ power] primary: number | name | function ( … ) | (
+//   expression ) | table ( expression {, place, value} )
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -50,7 +50,7 @@ class ExpressionParser {
     if (mentions_value()) {
       while (!at_end()) statement();
     } else {
-      binary(0);
+      expression();
       if (!at_end()) fail("expected an operator");
       emit(Do::pop_variable, static_cast<int>(Given::value));
     }
@@ -186,7 +186,7 @@ class ExpressionParser {
 
   void assignment(int place) {
     expect("=");
-    binary(0);
+    expression();
     if (variables_[place].whole) emit(Do::truncate);
     emit(Do::pop_variable, place);
     end_statement();
@@ -201,7 +201,7 @@ class ExpressionParser {
     const Level level(*this);
     name();
     expect("(");
-    binary(0);
+    expression();
     expect(")");
     const std::size_t to_else = emit_skip(Do::skip_if_zero);
     block();
@@ -230,6 +230,19 @@ class ExpressionParser {
       }
     }
     return nullptr;
+  }
+
+  void expression() {
+    binary(0);
+    if (!take("?")) return;
+    const Level level(*this);
+    const std::size_t to_other = emit_skip(Do::skip_if_zero);
+    expression();
+    expect(":");
+    const std::size_t to_end = emit_skip(Do::skip);
+    land(to_other);
+    expression();
+    land(to_end);
   }
 
   void binary(int rank) {
@@ -275,7 +288,7 @@ class ExpressionParser {
     if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') return number();
     if (begins_name(c)) return named();
     if (!take("(")) fail("expected a number, a name or '('");
-    binary(0);
+    expression();
     expect(")");
   }
 
@@ -314,7 +327,7 @@ class ExpressionParser {
   void table() {
     LookUp found;
     expect("(");
-    binary(0);
+    expression();
     do {
       expect(",");
       const std::size_t here = at_;
@@ -339,10 +352,10 @@ class ExpressionParser {
            joined(functions_in_expressions()));
     }
     expect("(");
-    binary(0);
+    expression();
     for (int n = 1; n < math_functions()[place].arguments; ++n) {
       expect(",");
-      binary(0);
+      expression();
     }
     expect(")");
     emit(Do::call, place);

@@ -47,7 +47,8 @@ class Function {
   std::shared_ptr<NotFinite> not_finite_;  // only with a program
 };
 
-// The functions allowed in expressions; no random numbers, which would make a run depend on the number of ranks.
+// The functions allowed in expressions (not floor; no random numbers, which would make a run depend on
+// the number of ranks).
 std::vector<std::string> functions_in_expressions();
 
 // The value at X (m) and t (s). Throws Error if it is not finite (the root of a negative number, a division by
