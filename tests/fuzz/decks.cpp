@@ -35,9 +35,14 @@ io::Mesh mesh_for(const deck::Deck& deck) {
   std::set<std::string> blocks, sets;
   for (const deck::Block& section : deck.blocks) blocks.insert(section.block_names.begin(), section.block_names.end());
   for (const deck::Condition& condition : deck.conditions) sets.insert(condition.node_set);
+  for (const std::string& variable : deck.history.variables) {  // "Max_Displacement(foot)"
+    const std::size_t open = variable.find('(');
+    if (open != std::string::npos) sets.insert(variable.substr(open + 1, variable.size() - open - 2));
+  }
+  for (const deck::Profile& profile : deck.history.profiles) sets.erase(profile.name);
   for (const deck::NodeSet& set : deck.node_sets) sets.erase(set.name);
   for (const std::string& block : blocks) sets.erase(block);
-  sets.erase("all");
+  std::erase_if(sets, [](const std::string& set) { return set == "all" || set.find(':') != std::string::npos; });
   sets.insert("foot");
   io::Mesh mesh;
   double z = 0;

@@ -31,9 +31,11 @@ GAP = 0.0005  # between the two bars
 PERIOD = 7  # points from one periodic side to the other
 
 
-def points(path, with_flap, between, width):
-    """Two bars, one above the other, with a gap between: no two points alike, so that a mistake has nowhere to hide; `width` points across x. The flap is one layer,
+def points(path, scene):
+    """Two bars, one above the other, with a gap between: no two points alike, so that a mistake has nowhere to hide. The flap is one layer,
     nearly flat, at a side of the lower one: its points are subcycled."""
+    width = PERIOD if scene in ("periodic", "stretched") else 5
+    between = 0 if scene == "rubbing" else GAP
     rng = random.Random(1)
     with open(path, "w") as file:
         for k in range(14):
@@ -42,7 +44,7 @@ def points(path, with_flap, between, width):
                     x, y, z = (SPACING * (n + 0.1 * rng.random()) for n in (i - width // 2, j - 2, k + 0.5))
                     block, gap = (1, 0) if k < 8 else (2, between)
                     file.write(f"{x:.17g} {y:.17g} {z + gap:.17g} {block} {SPACING**3:.17g}\n")
-        for j in (-1, 0, 1) if with_flap else ():
+        for j in (-1, 0, 1) if scene == "cells" else ():
             z = 4 + 0.2 * (1 if j else -1)
             file.write(f"{3 * SPACING:.17g} {j * SPACING:.17g} {z * SPACING:.17g} 1 {SPACING**3:.17g}\n")
 
@@ -261,8 +263,7 @@ class Test:
         """A new folder with the deck of a scene."""
         path = Path(name)
         path.mkdir()
-        points(path / "points.txt", with_flap=scene == "cells", between=0 if scene == "rubbing" else GAP,
-               width=PERIOD if scene in ("periodic", "stretched") else 5)
+        points(path / "points.txt", scene)
         keep = section("Restart", keys(Frequency=frequency))
         text = section(scene, *SCENES[scene](), keep).replace(f' name="{scene}"', "", 1)
         if not frames:  # but the first

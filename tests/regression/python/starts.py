@@ -24,7 +24,7 @@ OF_WORK = ("Tool_Work", "Contact_Work", "External_Work", "Balance_Error")
 
 def scene(name):
     """The deck of a scene, without files but its mesh."""
-    restarts.points("points.txt", with_flap=name == "cells", between=0 if name == "rubbing" else restarts.GAP)
+    restarts.points("points.txt", name)
     pathlib.Path("scene.xml").write_text(restarts.section(name, *restarts.SCENES[name]()).replace(f' name="{name}"', "", 1))
     deck = strut.Deck("scene.xml")
     del deck["Output"], deck["History"]["Filename"]
