@@ -109,12 +109,23 @@ double kinetic_energy_of_tools(const Conditions& conditions) {
   return sum;
 }
 
-void serialize_tools(Archive& archive, Conditions& conditions, int owned) {
+namespace {
+
+template <class Work>
+void for_each_tool(Conditions& conditions, const Work& work) {  // work(tool, its name in checkpoints)
   conditions.visit([&]<class Type>(Type& one) {
-    if constexpr (Type::in_equilibria == InEquilibria::tool) {
-      one.serialize(archive, "tool_" + std::to_string(one.reaction_place), owned);
-    }
+    if constexpr (Type::in_equilibria == InEquilibria::tool) work(one, "tool_" + std::to_string(one.reaction_place));
   });
+}
+
+}  // namespace
+
+void serialize_tools(Archive& archive, Conditions& conditions, int owned) {
+  for_each_tool(conditions, [&](RigidTool& tool, const std::string& name) { tool.serialize(archive, name, owned); });
+}
+
+void serialize_reaches(Archive& archive, Conditions& conditions) {
+  for_each_tool(conditions, [&](RigidTool& tool, const std::string& name) { tool.serialize_reaches(archive, name); });
 }
 
 std::vector<RigidTool> tools_of(const Conditions& conditions) {

@@ -69,6 +69,8 @@ std::vector<HeldDirection> held_directions(const Conditions& conditions, const B
 // group of all owned points.
 double kinetic_energy_of_tools(const Conditions& conditions);
 void serialize_tools(Archive& archive, Conditions& conditions, int owned);
+// The same for their reaches alone, "tool_N_reach", N the tool's index in the deck.
+void serialize_reaches(Archive& archive, Conditions& conditions);
 
 // All conditions that are unilateral contact in equilibria.
 std::vector<RigidTool> tools_of(const Conditions& conditions);

@@ -184,9 +184,12 @@ void RigidTool::set_reaches(double t, const Body& body, BodyAt from) {
   reaches = std::move(all);
 }
 
-// The cells where the run began, and a free motion.
-void RigidTool::serialize(Archive& archive, const std::string& name, int owned) {
+void RigidTool::serialize_reaches(Archive& archive, const std::string& name) {
   if (reaches) archive.field(name + "_reach", 1, [this](std::size_t i, int) -> double& { return (*reaches)[i]; });
+}
+
+void RigidTool::serialize(Archive& archive, const std::string& name, int owned) {
+  serialize_reaches(archive, name);
   if (free) free->serialize(archive, name, owned);
 }
 

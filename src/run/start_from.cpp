@@ -31,6 +31,7 @@ bool may_be_missing(const std::string& name) {
   constexpr std::array of_fracture = {"damage",       "fracture_energy", "released",       "broken_bonds",
                                       "tensor_state", "scalar_state",    "gradient_state", "quadratic_state"};
   if (name.starts_with("contact_") || name == "penetration" || name == "searches") return true;
+  if (name.ends_with("_reach")) return true;  // a tool that was not there
   return std::ranges::any_of(of_fracture, [&](const char* one) { return name == std::string("all points > ") + one; });
 }
 
@@ -104,6 +105,7 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   const auto pass = [&](Archive archive, double& last_step) {
     archive.number("dt", last_step);
     serialize_for_start(archive, body);
+    if (changes_.same_conditions) serialize_reaches(archive, scene.conditions);
     if (scene.fracture) scene.fracture->serialize(archive, body);
     if (!goes_on_ && changes_.same_contact) scene.contact.serialize(archive, kinematics, 0);
   };
@@ -124,7 +126,11 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
       body.velocity[i] += 0.5 * last_step / body.density[i] * body.force_density[i];
   }
   if (!goes_on_) body.previous_velocity = *body.velocity;  // its values
-  begin_from_here(deck, !goes_on_, scene, communicator_);
+  const auto knows_reaches = [&](int tool) {
+    const std::string name = "all points > tool_" + std::to_string(tool) + "_reach";
+    return changes_.same_conditions && std::ranges::find(parts.missing, name) == parts.missing.end();
+  };
+  begin_from_here(deck, !goes_on_, knows_reaches, scene, communicator_);
   return (parts.note.empty() ? "" : "WARNING: " + parts.note + "\n") + story(deck, scene);
 }
 

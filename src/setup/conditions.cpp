@@ -178,8 +178,8 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
   raise_together(communicator, problems.text(deck.file.string()));
 }
 
-void begin_from_here(const deck::Deck& deck, bool with_initial_velocities, Scene& scene,
-                     const Communicator& communicator) {
+void begin_from_here(const deck::Deck& deck, bool with_initial_velocities,
+                     const std::function<bool(int)>& knows_reaches, Scene& scene, const Communicator& communicator) {
   const double t = deck.solver.initial_time;
   deck::Problems problems;
   PointsOfConditions points;
@@ -192,7 +192,9 @@ void begin_from_here(const deck::Deck& deck, bool with_initial_velocities, Scene
   scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   scene.conditions.visit([&]<class Type>(Type& one) {
-    if constexpr (std::is_same_v<Type, RigidTool>) one.set_reaches(t, scene.body, BodyAt::present);
+    if constexpr (std::is_same_v<Type, RigidTool>) {
+      if (!knows_reaches(one.reaction_place)) one.set_reaches(t, scene.body, BodyAt::present);
+    }
   });
 }
 

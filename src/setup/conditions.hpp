@@ -1,6 +1,8 @@
 // The boundary conditions of a deck, made for the points of a scene.
 #pragma once
 
+#include <functional>
+
 #include "deck/deck.hpp"
 #include "deck/problems.hpp"
 #include "setup/scene.hpp"
@@ -16,9 +18,9 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
 void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, const Communicator& communicator);
 
 // Collective. The same scene, whose body is now in the state of another run (Start From): gives it initial velocities,
-// unless they are that run's, and tools the surface that they meet. Throws Error on all ranks for displacements that
-// would jump.
-void begin_from_here(const deck::Deck& deck, bool with_initial_velocities, Scene& scene,
-                     const Communicator& communicator);
+// unless they are that run's, and tools their reaches, unless knows_reaches(its index in the deck). Throws Error on all
+// ranks for displacements that would jump.
+void begin_from_here(const deck::Deck& deck, bool with_initial_velocities,
+                     const std::function<bool(int)>& knows_reaches, Scene& scene, const Communicator& communicator);
 
 }  // namespace strut
