@@ -196,7 +196,6 @@ NOT_DRAWN = {
     "Discretization > TensorProduct3DMeshGenerator": COMPOSED,
     "Discretization > Type": COMPOSED,
     "Start From": Not("the end of another run: regression/python/starts.py"),
-    "Materials > (any name) > Hourglass Coefficient": Not("Peridigm's, whose energy is not conserved: regression/deck/test_peridigm"),
     "Solver 2": Not("steps after equilibria: unit/deck, regression/deck/test_peridigm"),
     **{f"Materials > (any name) > {key}": Not("fits two elastic constants only: contract/test_hyperelastic")
        for key in ("C10", "C01", "Ogden Moduli", "Ogden Exponents")},
