@@ -102,6 +102,11 @@ template <class Values>
 class FieldRef {
  public:
   explicit FieldRef(FieldOf<Values>& field) : field_(&field) {}
+  FieldRef(const FieldRef&) = default;
+  FieldRef(FieldRef&&) = default;
+  // `a = b` would make two members one field: write `a = *b` to copy values.
+  FieldRef& operator=(const FieldRef&) = delete;
+  FieldRef& operator=(FieldRef&&) = default;
   FieldRef& operator=(Values values) {
     field_->values = std::move(values);
     return *this;

@@ -88,10 +88,10 @@ deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& 
   deck::Deck next = deck;
   next.solver = *deck.next_solver;
   next.next_solver.reset();
-  next.start_from.reset();  // it is the equilibria that began there
+  next.start_from.reset();                                          // it is the equilibria that began there
   next.solver.rebalance = std::numeric_limits<double>::infinity();  // another partition begins with a body at rest
   if (!next.solver.keeps_velocities) std::ranges::fill(scene.body.velocity, Vector::Zero());
-  scene.body.previous_velocity = *scene.body.velocity;  // its values: a field assigned to another would be one with it
+  scene.body.previous_velocity = *scene.body.velocity;
   scene.conditions = {};
   scene.tools.clear();
   scene.warnings.clear();
