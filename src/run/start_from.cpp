@@ -116,7 +116,6 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   const io::Parts parts = io::read_checkpoint_parts(file_, communicator_, all, snapshot);
   check_missing(file_, parts.missing, communicator_);
   raise_together(communicator_, other_stretch(deck, body.domain.periods, snapshot));
-  body.domain.halo.set_stretch(stretch_at(body.domain.periods, deck.solver.initial_time));
   pass(Archive::loading_from(snapshot), last_step);
   if (!keeps_velocities_) {
     std::ranges::fill(body.velocity, Vector::Zero());
@@ -125,7 +124,7 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
     for (int i = 0; i < body.owned(); ++i)
       body.velocity[i] += 0.5 * last_step / body.density[i] * body.force_density[i];
   }
-  if (!goes_on_) body.previous_velocity = *body.velocity;  // its values
+  if (!goes_on_) body.previous_velocity = *body.velocity;
   const auto knows_reaches = [&](int tool) {
     const std::string name = "all points > tool_" + std::to_string(tool) + "_reach";
     return changes_.same_conditions && std::ranges::find(parts.missing, name) == parts.missing.end();

@@ -80,10 +80,10 @@ void CentralDifference::advance_velocity(double final_time) {
   length_.choose(time_, final_time, contact_.stiffness(), exposed_are_pushed_, body_);
   const Timed timed(timer);
   choose_load_times(final_time);
-  const bool is_first = length_.previous_dt() == 0;
+  const double before = length_.previous_dt(), after = length_.dt(), impulse_time = 0.5 * (before + after);
+  const bool is_first = before == 0;
   const std::vector<Vector> inner = is_first ? *body_.force_density : std::vector<Vector>();
   add_loads();
-  const double before = length_.previous_dt(), after = length_.dt(), impulse_time = 0.5 * (before + after);
   // Initial velocities belong to the initial time: the first impulse is that of half a step.
   if (is_first) body_.velocity = predicted_velocities(conditions_, time_, after, body_);
   mid_steps_.before = before / (before + after);
@@ -315,23 +315,13 @@ void CentralDifference::go_on_from(const Ledger& before) {
 }
 
 void CentralDifference::serialize(Archive& archive) {
-  serialize_time(archive);  // before ghosts get their places
   strut::serialize(archive, body_);
   if (fracture_) fracture_->serialize(archive, body_);
-  serialize_motion(archive);
+  serialize_steps(archive);
 }
 
 void CentralDifference::serialize_steps(Archive& archive) {
-  serialize_time(archive);
-  serialize_motion(archive);
-}
-
-void CentralDifference::serialize_time(Archive& archive) {
   archive.number("time", time_);
-  if (archive.loading()) stretch_sides(time_);
-}
-
-void CentralDifference::serialize_motion(Archive& archive) {
   archive.points("all points", {body_.domain.cloud.ids.begin(), body_.domain.cloud.ids.begin() + body_.owned()});
   multi_stepping_.serialize(archive, body_);
   length_.serialize(archive, body_);

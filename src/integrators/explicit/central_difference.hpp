@@ -89,8 +89,6 @@ class CentralDifference {
   void reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed);
   void restrict_conditions();
   void stretch_sides(double t);
-  void serialize_time(Archive& archive);
-  void serialize_motion(Archive& archive);
   StepReport substeps();
   StepReport substep(int level, double t);
   void sum_all_forces(bool with_diagnostics);

@@ -276,7 +276,6 @@ void Equilibrium::serialize_search(Archive& archive) {
   contact_.serialize(archive, kinematics, 0);
   tools_.serialize(archive, body_);
   if (!archive.loading()) return;
-  stretch_sides(t_ + dt_);
   mirror_forces_before_ = mirror_forces_;
   forces_before_ = forces_;
   outer_ = outer_before_;
