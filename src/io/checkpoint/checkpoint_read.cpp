@@ -179,6 +179,26 @@ void open_either(const fs::path& newest, fs::path& path, const Open& open, std::
   note += "; going on from the one before, " + path.string();
 }
 
+// Collective. Fills the snapshot's numbers and columns whose names are wanted. `groups`: the numbers of its groups in
+// the file, −1 for one that is not there.
+void fill(const Communicator& communicator, const fs::path& path, const std::optional<NetcdfLists>& file,
+          const std::vector<int>& groups, const Takes& wanted, Snapshot& snapshot) {
+  for (auto& [name, value] : snapshot.numbers) {
+    if (wanted(name)) value = number(communicator, file, name);
+  }
+  for (auto& [name, value] : snapshot.shares) {
+    if (wanted(name)) value = share(communicator, file, name);
+  }
+  bool known = true;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    Snapshot::Group& group = snapshot.groups[g];
+    const auto is_wanted = [&](const Snapshot::Column& column) { return wanted(group.name + " > " + column.name); };
+    const bool any = groups[g] >= 0 && (group.columns.empty() || std::ranges::any_of(group.columns, is_wanted));
+    known = (!any || restore(communicator, file, groups[g], is_wanted, group)) && known;
+  }
+  raise_together(communicator, known ? "" : path.string() + ": is of another mesh: the ids of its points are others");
+}
+
 }  // namespace
 
 std::string read_checkpoint(const fs::path& newest, const Communicator& communicator, Snapshot& snapshot) {
@@ -194,14 +214,10 @@ std::string read_checkpoint(const fs::path& newest, const Communicator& communic
     file.emplace(std::move(found));
   };
   run_on_root(communicator, [&] { open_either(newest, path, open, note); });
-  for (auto& [name, value] : snapshot.numbers) value = number(communicator, file, name);
-  for (auto& [name, value] : snapshot.shares) value = share(communicator, file, name);
-  bool known = true;
-  for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    const auto all = [](const Snapshot::Column&) { return true; };
-    known = restore(communicator, file, g, all, snapshot.groups[g]) && known;
-  }
-  raise_together(communicator, known ? "" : path.string() + ": is of another mesh: the ids of its points are others");
+  std::vector<int> groups(snapshot.groups.size());
+  std::iota(groups.begin(), groups.end(), 0);
+  fill(
+      communicator, path, file, groups, [](const std::string&) { return true; }, snapshot);
   return note;
 }
 
@@ -306,20 +322,7 @@ Parts read_checkpoint_parts(const fs::path& newest, const Communicator& communic
   parts.missing = broadcast_names(std::move(parts.missing), communicator);
   const std::set<std::string> missing(parts.missing.begin(), parts.missing.end());
   const auto is_there = [&](const std::string& name) { return takes(name) && !missing.contains(name); };
-  for (auto& [name, value] : snapshot.numbers) {
-    if (is_there(name)) value = number(communicator, file, name);
-  }
-  for (auto& [name, value] : snapshot.shares) {
-    if (is_there(name)) value = share(communicator, file, name);
-  }
-  bool known = true;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    Snapshot::Group& group = snapshot.groups[g];
-    const auto is_wanted = [&](const Snapshot::Column& column) { return is_there(group.name + " > " + column.name); };
-    const bool any = groups[g] >= 0 && std::ranges::any_of(group.columns, is_wanted);
-    known = (!any || restore(communicator, file, groups[g], is_wanted, group)) && known;
-  }
-  raise_together(communicator, known ? "" : path.string() + ": is of another mesh: the ids of its points are others");
+  fill(communicator, path, file, groups, is_there, snapshot);
   return parts;
 }
 
