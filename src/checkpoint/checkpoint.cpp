@@ -109,6 +109,11 @@ void Checkpoint::write(int step, double time) {
   schedule_.done(time);
 }
 
+std::string Checkpoint::kept() const {
+  if (!due_at_the_end()) return "";
+  return settings_.file.string() + " keeps the state at the end (Start From, or --continue to a later Final Time)\n";
+}
+
 std::string Checkpoint::hint() const {
   std::ostringstream text;
   if (written_) {

@@ -34,15 +34,17 @@ class Checkpoint {
   // Collective. Throws Error on all ranks if the file is damaged, or belongs to another model.
   void load();
   void remove();  // collective: removes the checkpoint of an earlier run; throws Error if the file is none
-  void close();   // collective; at the end of a completed run: removes the checkpoint unless the deck asks for it
+  void close();   // collective; at the end of a completed run: removes the checkpoint unless it is to be kept
 
   bool due(int step, double time) const;  // by the steps or the time of the simulation
   bool due_by_the_clock() const;          // on this rank
-  bool due_at_the_end() const { return settings_.enabled && settings_.asked_for; }
+  bool due_at_the_end() const { return settings_.enabled && settings_.kept_at_end; }
   void write(int step, double time);  // collective; throws Error if the disk is full
 
   // How to resume after an error, for the error message.
   std::string hint() const;
+  // After close(): the line that names the file of a finished run, empty if there is none.
+  std::string kept() const;
 
  private:
   deck::Restart settings_;

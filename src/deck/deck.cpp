@@ -44,7 +44,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   deck.output = read_output(values, whole, problems);
   deck.history = read_history(values, whole, problems);
   add_probes(values, deck.node_sets);
-  deck.restart = read_restart(values, file, problems);
+  deck.restart = read_restart(values, file, deck.output.enabled, problems);
   if (steps_follow && deck.restart.asked_for && deck.restart.enabled) {
     problems.add("Restart", "beside 'Solver 2'; expected none: a run of two solvers writes no checkpoints");
   }

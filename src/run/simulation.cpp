@@ -289,7 +289,7 @@ void Run::Parts::finish() {
   if (control) control->finish();
   if (is_over()) checkpoint->close();
   report();
-  if (!is_over()) say(communicator, early_end.reason(communicator) + checkpoint->hint() + "\n");
+  say(communicator, is_over() ? checkpoint->kept() : early_end.reason(communicator) + checkpoint->hint() + "\n");
   close();
 }
 

@@ -78,8 +78,8 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
     run_on_root(communicator, [&] {
       if (std::filesystem::exists(file_) && is_of_kind(file_, FileKind::result)) {
         why = file_.string() +
-              " is a result: its frames do not hold the state of the laws (their stress, F, the steps "
-              "of each point); expected a checkpoint, which the section Restart in that run's deck keeps";
+              " is a result: its frames do not hold the state of the laws; expected the checkpoint of its last frame, "
+              "which its run has kept (the deck's name with the suffix .restart)";
       }
     });
     communicator.broadcast(why);

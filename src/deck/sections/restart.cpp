@@ -34,18 +34,19 @@ Section restart_section() {
   return {.name = name,
           .meaning =
               "Checkpoints, from which `strut --continue deck.xml` resumes a run on any number of ranks. They are "
-              "written at these times, at a signal, and at the end, so that the final time can be extended. Without "
-              "this section: every " +
-              *minutes.fallback + " minutes, removed at the end.",
+              "written at these times, at a signal, and at the end, so that the final time can be extended and another "
+              "run can start from there (Start From). Without this section: every " +
+              *minutes.fallback + " minutes, and at the end of a run with the section Output.",
           .keys = {enabled, file, when.frequency, when.interval, minutes, resumes}};
 }
 
-Restart read_restart(const Values& deck, const std::filesystem::path& deck_file, Problems& problems) {
+Restart read_restart(const Values& deck, const std::filesystem::path& deck_file, bool has_output, Problems& problems) {
   const Values& values = deck.section(name);
   const std::filesystem::path of_deck = std::filesystem::path(deck_file.filename()).replace_extension(".restart");
   const auto given_file = values[file];
   Restart restart{.enabled = values[enabled],
                   .asked_for = deck.has_section(name),
+                  .kept_at_end = deck.has_section(name) || has_output,
                   .file = given_file ? std::filesystem::path(*given_file) : of_deck,
                   .resumes = values[resumes],
                   .minutes = values[minutes]};

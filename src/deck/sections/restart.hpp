@@ -10,7 +10,8 @@ namespace strut::deck {
 
 struct Restart {
   bool enabled{};
-  bool asked_for = false;          // the deck has the section: the file is kept at the end of the run
+  bool asked_for = false;          // the deck has the section
+  bool kept_at_end = false;        // a finished run keeps the file
   std::filesystem::path file;      // relative to the working folder; the deck's name with the suffix .restart
   std::optional<int> frequency;    // every so many steps
   std::optional<double> interval;  // or every so many seconds of the simulation
@@ -19,6 +20,7 @@ struct Restart {
 };
 
 Section restart_section();
-Restart read_restart(const Values& deck, const std::filesystem::path& deck_file, Problems& problems);
+// `has_output`: the run writes frames; it keeps the state of the last one.
+Restart read_restart(const Values& deck, const std::filesystem::path& deck_file, bool has_output, Problems& problems);
 
 }  // namespace strut::deck

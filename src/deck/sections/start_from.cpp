@@ -9,8 +9,8 @@ namespace {
 const char* const name = "Start From";
 
 const TextKey checkpoint({.name = "Checkpoint",
-                          .meaning = "Path of the other run's checkpoint, relative to the working folder. Its deck "
-                                     "needs the section Restart, which keeps the last one."});
+                          .meaning = "Path of the other run's checkpoint, relative to the working folder. A run whose "
+                                     "deck has the section Output or Restart keeps the last one."});
 
 const OptionalKey<bool> keeps_velocities(
     {.name = "Keep Velocities",

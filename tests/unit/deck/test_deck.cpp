@@ -325,7 +325,7 @@ TEST(Deck, HasDefaults) {
   EXPECT_FALSE(deck.output.enabled);
   EXPECT_FALSE(deck.history.enabled);
   EXPECT_TRUE(deck.restart.enabled);
-  EXPECT_FALSE(deck.restart.asked_for);  // nothing is left when the run is over
+  EXPECT_FALSE(deck.restart.kept_at_end);  // nothing is left when the run is over
 }
 
 TEST(Deck, ARestartSectionAsksForTheFileToStay) {
@@ -333,7 +333,7 @@ TEST(Deck, ARestartSectionAsksForTheFileToStay) {
   const Deck deck = folder.read(changed(small_deck, R"(<ParameterList name="Solver">)",
                                         R"(<ParameterList name="Restart"/><ParameterList name="Solver">)"));
   EXPECT_TRUE(deck.restart.enabled);
-  EXPECT_TRUE(deck.restart.asked_for);
+  EXPECT_TRUE(deck.restart.kept_at_end);
 }
 
 Deck with_quasi_static(const DeckFolder& folder, const std::string& parameters) {
