@@ -19,7 +19,7 @@ DeshpandeFleck foam(double alpha = 2.1) {
   return law;
 }
 
-// Of 1e-6 s. The law goes by the rate and J.
+// A step of 1e-6 s. The law depends on the rate and J.
 PointStep step_of(const Symmetric& rate, double J) { return {rate, 1e-6, J, spherical(std::cbrt(J))}; }
 
 DeshpandeFleck without_hardening(DeshpandeFleck law) {

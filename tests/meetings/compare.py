@@ -1,7 +1,7 @@
 """Two results that should be the same thing seen from two frames."""
 import numpy as np
 
-# What each field is: how it turns, its unit, and what is much of it in a scene, in spacings, waves' speeds and moduli.
+# Each field: how it turns, its unit, and a large value in a scene, in spacings, wave speeds and moduli.
 FIELDS = {
     "Displacement": ("vector", "m", lambda s: s.h),
     "Velocity": ("vector", "m/s", lambda s: s.speed),

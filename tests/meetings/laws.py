@@ -184,7 +184,7 @@ def passive(scene, base, written):
             raise NotHere("something drives them")
     rows = base.history
     held = sum(rows[n] for n in ("Kinetic_Energy", "Elastic_Energy", "Plastic_Work", "Stabilization_Energy", "Fracture_Energy", "Tool_Kinetic_Energy"))
-    # What viscosity takes in a step is that of the mean of both ends: half of it may belong to the step before, or after.
+    # The viscous work of a step is that of the mean of both ends: half of it may belong to the step before, or after.
     known = 0.5 * np.diff(rows["Plastic_Work"]).max(initial=0) if has_viscosity(scene) else 0
     gained = (held[1:].max() - known) / max(held[0], 1e-12 * scene.masses().sum() * scene.speed**2) - 1
     if gained > 1e-2 and not told(base, "energy"):

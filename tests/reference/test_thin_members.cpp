@@ -234,7 +234,7 @@ TEST(Vibration, ComesNearTheExactOneWithTheSpacing) {
   for (int m = 0; m < 6; ++m) EXPECT_LT(fine[m], 0.6 * coarse[m]) << "mode " << m;
 }
 
-// What users are told: the share of the bending stiffness of prisms at elements.
+// The fraction of the bending stiffness of prisms at elements that the program reports to users.
 TEST(BendingStiffnessKept, IsWhatIsMeasured) {
   for (const int across : {3, 4, 6}) {
     Body body = body_of(square_prism(across, PointsAt::elements), "mean gradient");

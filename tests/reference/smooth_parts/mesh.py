@@ -133,7 +133,7 @@ def straight_mesh(struts, cells):
     corners = numpy.concatenate([corners, places])
     size = volumes(corners, tets)
     tets[size < 0] = tets[size < 0][:, [1, 0, 2, 3]]
-    # What is left of corners that were moved into one plane.
+    # Removes flat tetrahedra, whose corners were moved into one plane.
     tets = tets[numpy.abs(size) > 1e-6 * numpy.abs(size).max()]
     return corners, largest_piece(tets, len(corners)), is_surface
 

@@ -102,7 +102,7 @@ TEST(Contradiction, IsNotInWhatAgrees) {
       EXPECT_EQ(said_of(block(conditions), loading).error, "") << conditions;
     }
   }
-  // What is prescribed at the start and what is prescribed then do not contradict each other.
+  // Initial and prescribed values do not contradict each other.
   EXPECT_EQ(
       said_of(block(along("a", "Initial Velocity", "all", "z", "-20") + displacement("b", "foot", "z", "0"))).error,
       "");

@@ -27,7 +27,7 @@ except ImportError as error:
 STRUT, MESH = sys.argv[1:3]
 RECIPE = "shape = box\nsize = 4e-3 4e-3 6e-3\nspacing = 1e-3\n"
 
-# What pvbatch is told: the places it draws at the last time, as text.
+# A script for pvbatch: prints the positions that it draws at the last time.
 ASK_PARAVIEW = """
 import sys
 from paraview.simple import OpenDataFile, servermanager, MergeBlocks, PythonCalculator

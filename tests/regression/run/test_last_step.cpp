@@ -43,7 +43,7 @@ class SignalAt : public std::streambuf {
   bool raised_ = false;
 };
 
-// What a run of so many equal steps returns when it is signalled.
+// True if a run of so many equal steps stops because it is signalled.
 bool signalled_run(const RunFolder& folder, const std::string& final_time,
                    const char* at = "left: ", int with = SIGTERM) {
   Parts parts;

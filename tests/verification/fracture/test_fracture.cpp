@@ -43,7 +43,7 @@ const std::vector<Kind> kinds = {
      FamilyKind::stencil},
 };
 
-// What a bond of 1.4 mm holds, roughly, in a lattice of 1 mm and this horizon: ω = 1 and no dilatation.
+// Energy of a bond of 1.4 mm at a stretch, roughly, in a lattice of 1 mm and this horizon: ω = 1 and no dilatation.
 double energy_at(const Kind& kind, double stretch) {
   const double shear = young / (2 * (1 + poisson));
   const double m = 0.8 * std::numbers::pi * std::pow(kind.horizon * 1e-3, 5);  // of a continuum
@@ -430,7 +430,7 @@ TEST(Cracks, CutBondsOnce) {
   half.cells[2] = 5, half.cracks = {};
   EXPECT_EQ(halves, 2 * world.sum(static_cast<std::int64_t>(lattice_body(half, world).domain.families.bonds())));
   EXPECT_EQ(bonds({DiskCrack{Vector(3.5e-3, 3.5e-3, 5e-3), Vector(0, 0, 1), 1}}), halves);
-  // Of the middle point's column the bonds straight down cross a disk of half a spacing; so do oblique ones.
+  // The vertical bonds of the middle point's column cross a disk of half a spacing; so do oblique ones.
   const std::int64_t small = bonds({DiskCrack{Vector(3.5e-3, 3.5e-3, 5e-3), Vector(0, 0, 1), 0.4e-3}});
   EXPECT_LT(small, whole);
   EXPECT_GT(small, halves);

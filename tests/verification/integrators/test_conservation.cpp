@@ -1,4 +1,4 @@
-// What must not change: momentum to round-off, energy with the order of the scheme; and the limit of the step.
+// Conserved quantities: momentum to round-off, energy with the order of the scheme; and the limit of the step.
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"

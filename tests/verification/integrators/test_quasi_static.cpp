@@ -287,8 +287,8 @@ TEST(QuasiStatic, ElasticPathsOfOneAndFiveStepsEndAlike) {
   EXPECT_LT(largest_difference(once.body, often.body), 1e-5 * 0.01 * once.length());
 }
 
-// What is left of the forces may all pull at one end of the bar, and move it by that part of its travel: twice, for
-// both methods, and some times more where a softer shape of the bar, its bending, is in it. Measured: 2 of the 10.
+// The remaining forces may all pull at one end of the bar, and move it by that part of its travel: twice, for both
+// methods, and some times more where a softer shape of the bar, its bending, is in it. Measured: 2 of the 10.
 TEST(Relaxation, FindsTheEquilibriumOfNewton) {
   const Tolerance tolerance{.relative = 1e-7};
   for (const materials::AnyLaw& law : {elastic(young, poisson), elastic_plastic()}) {
