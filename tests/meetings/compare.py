@@ -90,7 +90,7 @@ def fields_differ(base, other, scene, frame, only=None, flight=True):
 
 
 def reaction_sum(result, parts):
-    """Of all conditions together: of points that two of them hold each counts what it changes, in their order."""
+    """The sum over all conditions: at a point of two conditions each counts its own change, in their order."""
     total = 0.0
     for name in parts:
         columns = [result.history.get(f"Reaction_{a}({name})") for a in "XYZ"]

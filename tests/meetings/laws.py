@@ -1,4 +1,4 @@
-"""What each run must keep by itself. Each law returns what is wrong, or None; a scene that it does not apply to raises NotHere with the reason."""
+"""The laws of a single run. Each law returns a violation, or None; a scene that it does not apply to raises NotHere with the reason."""
 import numpy as np
 
 from compare import ENERGIES
@@ -119,7 +119,7 @@ def impulses_of_load(scene, one, time):
 
 
 def angular_momentum(scene, base, written):
-    """Of free bodies: central differences keep Σ m y × v where no force has a moment."""
+    """For free bodies: central differences keep Σ m y × v where no force has a moment."""
     if not scene.explicit or scene.has(*REACTING, "Body Force", "Non-Reflecting End", "Periodic Sides"):
         raise NotHere("something acts from outside")
     m = (base.frames[0]["Volume"] * base.frames[0]["Density"])[:, None]

@@ -1,4 +1,4 @@
-"""What follows from the measured runs for many more points and ranks."""
+"""Extrapolation of the measured runs to many more points and ranks."""
 import os
 
 import numpy as np

@@ -134,7 +134,7 @@ class ParaView(unittest.TestCase):
                                        rtol=1e-6)
 
     def eighth(self, name, components):
-        """Of the eighth element at the last time, as the file has it."""
+        """The value of the eighth element at the last time, as in the file."""
         names = [row.tobytes().split(b"\0")[0].decode() for row in self.file["name_elem_var"][:]]
         return [self.file[f"vals_elem_var{names.index(name + c) + 1}eb1"][-1][7] for c in components.split()]
 

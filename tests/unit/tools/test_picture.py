@@ -64,7 +64,7 @@ def write_result(path, blocks, displacement, elemental, times=(0, 1e-3), names="
 
 
 def hue(color):
-    """What light, which only multiplies, leaves as it is."""
+    """The part of a color that light, which only multiplies, does not change."""
     color = np.asarray(color, float)[:3]
     return color / np.linalg.norm(color)
 

@@ -54,7 +54,7 @@ class ToolTest(unittest.TestCase):
                               timeout=120)
 
     def works(self, tool, source, *words):
-        """What it prints by first words, and the mesh it writes."""
+        """Its output by first words, and the mesh it writes."""
         done = self.run_tool(tool, source, self.path("out.g"), *words)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stderr, "")
