@@ -26,7 +26,7 @@ struct Grain {
 
 std::int64_t body_of(const Domain& domain, int i) { return domain.blocks[domain.cloud.blocks[i]].body; }
 
-// Collective. Of owned points the volume of their bodies within the horizon, themselves included, bonded or not.
+// Collective. For each owned point the volume of its body within the horizon, itself included, bonded or not.
 std::vector<double> volumes_within_horizons(const Domain& domain) {
   std::vector<Vector> places;
   std::vector<Grain> grains;

@@ -65,8 +65,8 @@ struct Increment {
   double dt, J;  // J: for laws by the rate
 };
 
-// Steps of every size: rates of 1 to 1e7 /s for 1e-10 to 1e-6 s, from far below yield to ten times the length. Of a law
-// that goes by the stretch up to half of it, back and forth within a logarithmic strain of 1.5.
+// Steps of every size: rates of 1 to 1e7 /s for 1e-10 to 1e-6 s, from far below yield to ten times the length. A law of
+// the second form goes up to half of it, back and forth within a logarithmic strain of 1.5.
 template <class L>
 std::vector<Increment> wild_path(Random& random, int steps) {
   std::vector<Increment> path;

@@ -309,7 +309,8 @@ TEST(Lattice, NeighborsAtExactlyTheHorizonAreIn) {
 // ---- Bonds through material, shapes and shared nodes
 // ----------------------------------------------------------------------
 
-// Cells of a porous block, with their corners for shared nodes; shapes by their ids. Of two blocks one above the other.
+// Cells of a porous block, or of two blocks one above the other, with their corners for shared nodes; shapes by their
+// ids.
 struct Porous {
   double filled;   // the part of the cells that is there
   double horizon;  // spacings; of the upper block 0.8 of it

@@ -181,7 +181,7 @@ TEST(Condition, SymmetryPlaneWithinABodyKeepsItsPoints) {
             1e-6);
 }
 
-// A pulse, smooth and some forty spacings long, runs up a column in uniaxial strain. What is left in it when the pulse
+// A pulse, smooth and some forty spacings long, runs up a column in uniaxial strain. The energy in it when the pulse
 // would be on its way back is the square of the part that the end reflects. Between points of a lattice the speed of a
 // wave of this length is 1 % below that of the continuum; the end is matched to the latter: half a percent is
 // reflected.

@@ -1,5 +1,5 @@
-// Conditions that say two things of a point, or throw it somewhere: refused or told when the deck is set up, by
-// explicit steps and in equilibria alike. What agrees acts together.
+// Conditions that contradict each other at a point, or throw it somewhere: refused, or a warning, when the deck is set
+// up, by explicit steps and in equilibria alike. Conditions that agree act together.
 #include <gtest/gtest.h>
 
 #include "regression/bodies.hpp"

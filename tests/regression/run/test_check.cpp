@@ -59,8 +59,8 @@ double seconds_of_run(const RunFolder& folder, const std::string& deck) {
 
 constexpr double longer = 1000;  // than a run that is made is one that is told of: seconds hide nothing of it
 
-// A run takes as long as was told, roughly: a machine may be busy, but not ten times as busy a moment later. What is
-// forgotten (the number of steps, a unit) is larger. `seconds`: of a run of so many times fewer of the same steps.
+// A run takes about the predicted time: a machine may be busy, but not ten times as busy a moment later. A forgotten
+// factor (the number of steps, a unit) is larger. `seconds`: of a run of so many times fewer of the same steps.
 void expect_told_time(const std::string& told, double seconds) {
   std::smatch found;
   ASSERT_TRUE(std::regex_search(told, found, std::regex("estimated time (.+) to (.+?)( \\(|\n)"))) << told;

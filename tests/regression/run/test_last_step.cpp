@@ -11,7 +11,7 @@
 namespace strut::regression {
 namespace {
 
-// Stands for std::cout, and raises a signal when the run tells a text for the first time. Of progress it tells first
+// Replaces std::cout, and raises a signal when the run prints a text for the first time. The first progress is printed
 // between the two halves of its first step.
 class SignalAt : public std::streambuf {
  public:

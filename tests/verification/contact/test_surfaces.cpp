@@ -248,8 +248,8 @@ TEST(Surfaces, StrutsTouchWhereTheirCellsEnd) {
   }
 }
 
-// K g: with p/(factor M) spacings of overlap under the pressure p. Of large boxes, so that their edges, where the faces
-// feel half, count little: the middle's share of the force is what a box of two more cells has more.
+// K g: with p/(factor M) spacings of overlap under the pressure p. The boxes are large, so that their edges, where the
+// faces feel half, count little: the middle bears the additional force of a box of two more cells.
 TEST(Surfaces, PressureIsThatOfALayer) {
   for (const PointsAt at : kinds) {
     const double overlap = 0.02 * h;
@@ -310,8 +310,8 @@ TEST(Surfaces, FrictionTurnsNothing) {
 }
 
 // A body that turns about a line in the plane where it touches does not slip there, whichever body's points feel: the
-// power of its friction beside that of a body which slides as fast as this one goes half a spacing above. What is left,
-// 0.026 and 0.020 (a slip of 0.08 spacings times the turn, root mean square), is of the rims, where the normal is
+// power of its friction beside that of a body which slides as fast as this one goes half a spacing above. The rest,
+// 0.026 and 0.020 (a slip of 0.08 spacings times the turn, root mean square), is that of the rims, where the normal is
 // askew.
 TEST(Surfaces, WhatRollsDoesNotRub) {
   for (const PointsAt at : kinds) {

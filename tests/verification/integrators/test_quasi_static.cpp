@@ -1,5 +1,5 @@
 // Equilibria of held bodies against closed forms and refined solutions, and the tangent against differences of the
-// forces. What touches is in test_quasi_static_contact.
+// forces. Contact is in test_quasi_static_contact.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -158,9 +158,9 @@ TEST(QuasiStaticBar, FlowsByItsHardening) {
   EXPECT_GT(end.dissipated, end.elastic);
 }
 
-// The work of the ends is summed by the trapezoidal rule. What does not fall with the step, the energy of a law in
-// rates, drops out of the differences; onset of flow within a step, of second order too, comes at another place of the
-// step.
+// The work of the ends is summed by the trapezoidal rule. The part that does not fall with the step, the energy of a
+// law in rates, drops out of the differences; onset of flow within a step, of second order too, comes at another place
+// of the step.
 TEST(QuasiStaticBar, BalancesItsEnergyToSecondOrderInTheStep) {
   for (const materials::AnyLaw& law : {elastic(young, poisson), elastic_plastic()}) {
     const auto error = [&](int steps) {

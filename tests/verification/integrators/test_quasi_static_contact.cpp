@@ -292,10 +292,9 @@ TEST(QuasiStaticContact, CarriesOneBlockOnAnother) {
   EXPECT_LT(end.balance_error, 5e-3);
 }
 
-// The same with springs that stiffen. Of 16 equal spheres in a row with the blocks: F = 16 · 4/3 E* √R* o^(3/2), so
-// that the blocks are shortened by what is left of the way, 2 F/k. What they store, 2/5 F o for a force that is the
-// same, is less than what the edges' greater shares come to; and the tangent leads Newton to the equilibrium without
-// help.
+// The same with springs that stiffen. Sixteen equal spheres in a row with the blocks have F = 16 · 4/3 E* √R* o^(3/2),
+// so that the blocks are shortened by the rest of the displacement, 2 F/k. Their energy, 2/5 F o at the same force, is
+// less than the greater part of the edges adds; and the tangent leads Newton to the equilibrium without help.
 TEST(QuasiStaticContact, CarriesOneBlockOnAnotherByHertz) {
   const double modulus = young;
   Pair pair(lattice_of({4, 4, 10}, elastic(young, poisson)), 0.05 * spacing,
