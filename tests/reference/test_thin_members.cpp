@@ -269,7 +269,7 @@ TEST(QuadraticCorrespondence, HasLittleForceAtFreeSurfacesOfUniformStress) {
 // Errors of the stiffness of the first six modes of round struts in any direction, of cells that know their moments.
 // The mean sizes over twenty struts are 10.3, 5.6, 4.4, 2.4 % with 2, 3, 4, 6 cells across (bench_thin_members); over
 // the first six of them they scatter by a tenth of that. No zero-energy mode beside the rigid motions.
-//   The program reports the largest error to users; the report is not twice too much. A frequency of torsion gives no
+// The program reports the largest error to users; the report is not twice too much. A frequency of torsion gives no
 // stiffness: the mass of a cell is in its middle, the moment of inertia short by 1/n².
 TEST(QuadraticCorrespondence, KeepsTheStiffnessOfThinStrutsAsIsTold) {
   constexpr int torsion = 2;
