@@ -92,7 +92,7 @@ bool needs_inertia(const deck::Condition& condition) {
   return (tool && tool->free) || std::visit(impossible, condition.kind);
 }
 
-// Points that a condition holds begin where it has them.
+// Held points start at the initial displacement that their condition prescribes.
 void put_back_held(const deck::Deck& deck, const PointsOfConditions& points, Body& body) {
   for (std::size_t c = 0; c < points.size(); ++c) {
     const auto* motion = std::get_if<PrescribedMotion>(&deck.conditions[c].kind);
