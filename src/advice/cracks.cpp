@@ -48,8 +48,8 @@ std::string noisy_cracks(const Situation& situation) {
   return text;
 }
 
-// By docs/theory.md, By the energy of a bond: the bond's part of the dilatation reduces the energy that its break
-// releases if K > 5/3 G. Criteria of energy check that for each bond, those of stretch do not.
+// If K > 5/3 G, the bond's part of the dilatation reduces the energy that its break releases (docs/theory.md, By the
+// energy of a bond). Criteria of energy check that for each bond, those of stretch do not.
 std::string breaks_under_pressure(const Situation& situation) {
   const Body& body = situation.scene.body;
   std::string text;

@@ -40,8 +40,8 @@ double yield_ratio(const BlockMaterial& material) {
       material.law);
 }
 
-// By how much the flow stress rises until a plastic strain of 1, over that of the undeformed material; 0 where that is
-// not told by the plastic strain alone.
+// Rise of the flow stress up to a plastic strain of 1, over that of the undeformed material; 0 if the flow stress
+// depends on more than the plastic strain.
 double hardening(const BlockMaterial& material) {
   return std::visit(
       []<class L>(const L& law) {
@@ -153,7 +153,7 @@ double reference_temperature(const materials::ThermalJ2& metal) {
   return softening ? softening->reference : -std::numeric_limits<double>::infinity();
 }
 
-// By what a ductile metal fails, or nullptr.
+// The failure criterion of a ductile metal, or nullptr.
 const materials::JohnsonCookFailure* failure_of(const materials::AnyLaw& law) {
   return std::visit(
       []<class L>(const L& one) -> const materials::JohnsonCookFailure* {

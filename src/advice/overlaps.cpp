@@ -26,7 +26,7 @@ struct Grain {
 
 std::int64_t body_of(const Domain& domain, int i) { return domain.blocks[domain.cloud.blocks[i]].body; }
 
-// Collective. Of owned points the volume of their bodies within the horizon, themselves included, bonded or not.
+// Collective. For each owned point the volume of its body within the horizon, itself included, bonded or not.
 std::vector<double> volumes_within_horizons(const Domain& domain) {
   std::vector<Vector> places;
   std::vector<Grain> grains;
@@ -62,7 +62,7 @@ bool is_crowded(const Domain& domain, int i, double volume_within) {
   return volume_within > crowded * 4 * std::numbers::pi / 3 * horizon * horizon * horizon;
 }
 
-// Where a body is of several pieces, bonds through material may leave out what is at one place; else families tell.
+// In a body of several pieces, visibility may leave out bonds between coincident points; otherwise families show them.
 bool has_pieces(const Domain& domain, std::int64_t pieces) {
   std::int64_t bodies = 0;
   for (const BlockHorizons& block : domain.blocks) bodies = std::max<std::int64_t>(bodies, block.body + 1);

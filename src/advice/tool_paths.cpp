@@ -13,8 +13,7 @@ namespace {
 
 constexpr int looks = 100;  // samples of a tool's path
 
-// ---- Tools that are apart
-// --------------------------------------------------------------------------------------------
+// ---- Tools that are apart ------------------------------------------------------------------------------------------
 
 double smallest_gap(const RigidTool& tool, const Body& body, const std::vector<Vector>& velocities, double start,
                     double after) {
@@ -45,8 +44,7 @@ std::optional<double> first_touch(const RigidTool& tool, const Body& body, const
   return std::nullopt;
 }
 
-// ---- Thin tools
-// ------------------------------------------------------------------------------------------------------
+// ---- Thin tools ----------------------------------------------------------------------------------------------------
 
 using Extent = Eigen::AlignedBox3d;
 
@@ -127,7 +125,7 @@ Thin thin(const Box& box, const RigidTool& tool, const Trajectory& block, double
   return {at_start.sizes()[axis], std::string("wide along ") + "xyz"[axis]};
 }
 
-// From its axis, at each sample, to the ball around the block.
+// Distance of the tool's axis, at each sample, from the ball around the block.
 Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, double spacing, double start,
           double duration) {
   if (2 * roll.radius >= least_width * spacing) return {};
@@ -140,7 +138,7 @@ Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, 
   return {};
 }
 
-// The extent of a tool along an axis without its travel, m; empty if it goes on forever, or is alike at all places.
+// The extent of a tool along an axis without its travel, m; empty if it is infinite along the axis.
 using Range = Eigen::AlignedBox<double, 1>;
 Range range_along(const HalfSpace&, int) { return {}; }
 Range range_along(const Box& box, int axis) { return Range(box.lower.segment<1>(axis), box.upper.segment<1>(axis)); }

@@ -168,7 +168,7 @@ Keys own_keys(const Section& one, const std::vector<SharedKeys>& shared) {
   return keys;
 }
 
-// What stands on the page so far, and the path of its section.
+// The page so far, and the path of the section that is written.
 struct Written {
   std::map<std::string, std::string> bodies, keys;  // of sections; name and meaning of keys
 

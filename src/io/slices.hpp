@@ -31,8 +31,8 @@ class Slices {
   std::int64_t first() const;                                          // number in the slices before
   std::int64_t size() const;                                           // on all ranks
 
-  // Collective. Of `width` values per item of this rank, in the order of the ids, returns value `component` for the
-  // items of the slice. If several ranks have the same item, they must give the same value.
+  // Collective. Takes `width` values per item of this rank, in the order of the ids, and returns value `component` for
+  // the items of the slice. If several ranks have the same item, they must give the same value.
   template <class T>
   std::vector<T> to_slices(std::span<const T> values, int width = 1, int component = 0) const {
     std::vector<T> result(ids_.size());

@@ -21,7 +21,7 @@ namespace {
 
 using Clock = EarlyEnd::Clock;
 
-// On the rank that has a message.
+// Prints a line on the calling rank.
 void tell(const std::string& line) { std::cout << line << std::endl; }
 
 // Ignores errors of the action, so that the message of an earlier error stays the last one.
@@ -33,7 +33,7 @@ void quietly(Action&& action) {
   }
 }
 
-// Writes the present fields when a run ends with an error: they show where.
+// Writes the present fields when a run ends with an error: they show where it happened.
 void leave_frame(OutputWriters& writers, double time, const Body& body) {
   if (!writers.frames.is_open() || writers.frames.has(time)) return;
   quietly([&] { writers.frames.write(time, body); });
@@ -59,7 +59,7 @@ void look_at_checkpoint(const deck::Deck& deck, Start start, const Communicator&
 
 }  // namespace
 
-// The objects of a run. Between two steps it leaves a time and arrives at the next one.
+// The objects of a run. A step leaves a time and arrives at the next one.
 struct Run::Parts {
   Clock::time_point began = Clock::now();
   deck::Deck deck;
@@ -68,13 +68,13 @@ struct Run::Parts {
   std::optional<Scene> scene;  // stays at this address, also when another scene replaces it
   std::optional<OutputWriters> writers;
   Balance balance;
-  std::optional<CentralDifference> steps;  // or:
+  std::optional<CentralDifference> steps;  // for explicit steps, else
   std::optional<QuasiStatic> equilibria;
   std::optional<Monitor> monitor;
   std::optional<Checkpoint> checkpoint;
   std::optional<RunServices> services;
   std::optional<ExplicitRunControl> control;
-  int before = 0;  // steps of an earlier run that it resumes
+  int before = 0;  // number of steps of the earlier run that this one resumes
   HistoryRows* history = nullptr;
   bool begun = false, ended = false;
   bool last = false, ending = false, save = false;  // `ending`, `save`: of equilibria
@@ -130,7 +130,7 @@ void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Star
   open(start);
 }
 
-// `state`: of another run, in which the body is already.
+// `state`: the state of another run, which the body already has.
 void Run::Parts::make_solver(StartState* state) {
   const deck::Solver& times = deck.solver;
   if (scene->quasi_static) {
@@ -227,7 +227,7 @@ void Run::Parts::leave_equilibrium() {
   save = ending || communicator.max(checkpoint->due_by_the_clock() ? 1.0 : 0.0) > 0;
 }
 
-// Errors leave a frame and tell how to resume; the run has then ended.
+// After an error the run writes a frame, says how to resume, and has ended.
 template <class Action>
 void Run::Parts::guarded(const Action& action) {
   ended = true;
@@ -247,7 +247,7 @@ void Run::Parts::guarded(const Action& action) {
   ended = last;
 }
 
-// Leaves the files to other runs of this process; the fields stay.
+// Closes the files, for other runs of this process; the fields stay.
 void Run::Parts::close() {
   control.reset();
   services.reset();
@@ -255,7 +255,7 @@ void Run::Parts::close() {
   writers.reset();
 }
 
-// The explicit steps that follow equilibria (Solver 2): with the body as it is, files that go on, and no checkpoints.
+// Starts the explicit steps after equilibria (Solver 2): the same body and files, no checkpoints.
 void Run::Parts::hand_over() {
   report();
   const Ledger before = equilibria->ledger();

@@ -26,7 +26,7 @@ bool has_initial_velocity(const deck::Deck& deck) {
       deck.conditions, [](const deck::Condition& one) { return std::holds_alternative<InitialVelocity>(one.kind); });
 }
 
-// What a file may lack: a body that could not break is whole, and contact that was not there begins anew.
+// True for data that a checkpoint may lack: a body that could not break is whole, and new contact begins anew.
 bool may_be_missing(const std::string& name) {
   constexpr std::array of_fracture = {"damage",       "fracture_energy", "released",       "broken_bonds",
                                       "tensor_state", "scalar_state",    "gradient_state", "quadratic_state"};

@@ -27,7 +27,7 @@ std::vector<int> points_of(const PointCloud& cloud, const std::string& set) {
   return points;
 }
 
-// s, of the body as it was read, and at which the conditions begin.
+// The time of the body as it was read, and that at which the conditions begin, s.
 struct Times {
   double mesh = 0, begin = 0;
 };
@@ -38,7 +38,7 @@ void check_values(const std::vector<Function>& values, const std::vector<int>& p
   }
 }
 
-// A tool that has held the body since the mesh was read, as in the equilibria before, keeps the reaches of then.
+// A tool that has held the body since the mesh was read, as in earlier equilibria, keeps its initial reaches.
 void set_reaches(RigidTool& tool, const Times& times, const Body& body) {
   if (!tool.free || times.mesh == times.begin) return tool.set_reaches(times.mesh, body, BodyAt::mesh);
   tool.set_reaches(times.begin, body, BodyAt::present);
@@ -92,7 +92,7 @@ bool needs_inertia(const deck::Condition& condition) {
   return (tool && tool->free) || std::visit(impossible, condition.kind);
 }
 
-// Points that a condition holds begin where it has them.
+// Held points start at the initial displacement that their condition prescribes.
 void put_back_held(const deck::Deck& deck, const PointsOfConditions& points, Body& body) {
   for (std::size_t c = 0; c < points.size(); ++c) {
     const auto* motion = std::get_if<PrescribedMotion>(&deck.conditions[c].kind);

@@ -39,8 +39,8 @@ void check_walls(const deck::Deck& deck, const PeriodicSides& sides, const std::
   }
 }
 
-// Why the points do not fit between the sides; empty if they do. `edge`: of the smallest cell, `horizon`: the largest,
-// m.
+// The reason why the points do not fit between the sides; empty if they do. `edge`: of the smallest cell, `horizon`:
+// the largest, m.
 std::string objection(const PeriodicSides& sides, const Eigen::AlignedBox3d& box, double edge, double horizon) {
   constexpr double least = 0.01;      // of a cell between a point and the image of another one
   constexpr double most_periods = 5;  // in a horizon

@@ -14,8 +14,8 @@ namespace strut::testing {
 
 // ---- What sets laws apart -------------------------------------------------------------------------------------------
 
-// Of the second form, by the stretch, or with a pressure of the volume: then J and the stretch belong to the path, and
-// logarithmic strains of more than about 1 are no path that a body could take.
+// True for a law of the second form, which takes the stretch, or with a pressure by the volume. Its test paths contain
+// J and the stretch, and logarithmic strains of more than about 1 are no path of a body.
 template <class L>
 inline constexpr bool from_stretch = false;
 template <>

@@ -18,7 +18,7 @@ struct Polyurethane {
   static constexpr double uniaxial = 82.034e3, hydrostatic = 40.470e3, tension_ratio = 0.30;  // Pa
   static constexpr double air = 101.325e3;                                                    // Pa
 
-  // What the Kirchhoff stress has gained at the compaction ε.
+  // Growth of the Kirchhoff stress up to the compaction ε.
   static double hardening(double strength, double strain) {
     const double J = std::exp(-strain);
     return J * (strength + air * (1 - J) / (J - density)) - strength;

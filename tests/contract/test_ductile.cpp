@@ -118,7 +118,7 @@ TEST(Ductile, FallsLinearly) {
   }
 }
 
-// What has softened still resists compression as a whole metal does, and takes up tension as it is.
+// A softened point still resists compression as a whole metal does, and takes up tension as it is.
 TEST(Ductile, ClosesInCompression) {
   point::Driver<Ductile> point(metal(FailureStrain{0.1}));
   while (point.state.damage < 0.5) ASSERT_TRUE(shear_point(point, 1e-4));

@@ -1,4 +1,4 @@
-// What every law must do, whatever it stands for: looped over the table of laws.
+// The rules that every law must obey, looped over the table of laws.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -65,8 +65,8 @@ struct Increment {
   double dt, J;  // J: for laws by the rate
 };
 
-// Steps of every size: rates of 1 to 1e7 /s for 1e-10 to 1e-6 s, from far below yield to ten times the length. Of a law
-// that goes by the stretch up to half of it, back and forth within a logarithmic strain of 1.5.
+// Steps of every size: rates of 1 to 1e7 /s for 1e-10 to 1e-6 s, from far below yield to ten times the length. A law of
+// the second form goes up to half of it, back and forth within a logarithmic strain of 1.5.
 template <class L>
 std::vector<Increment> wild_path(Random& random, int steps) {
   std::vector<Increment> path;
@@ -261,7 +261,7 @@ TEST_P(LawTest, PlasticStrainAndWorkNeverFall) {
           EXPECT_GE(to_columns<L>(point.state)[strain], to_columns<L>(old.state)[strain]);
         }
       }
-      // What a law counts by steps of half of the volume need not be on the isentrope.
+      // A law that counts its energy by steps of half of the volume need not be on the isentrope.
       if (!requires { law.stored_energy(point.state); }) {
         EXPECT_GE(law.elastic_energy(point.stress, point.state), 0);
       }
@@ -475,8 +475,8 @@ std::vector<PointStep> path_to_nan(int seed) {
   return path;
 }
 
-// What round-off leaves of a stress after some steps, Pa, if it is not a sum of increments: an equation of state takes
-// the pressure from the volume, which is near 1 and is rounded a few times in each step.
+// Round-off of a stress after some steps, Pa, if it is not a sum of increments: an equation of state takes the pressure
+// from the volume, which is near 1 and is rounded a few times in each step.
 template <Law L>
 double round_off_of_pressure(const L& law, std::size_t steps) {
   if constexpr (!std::is_same_v<L, ShockJ2>) return 0;

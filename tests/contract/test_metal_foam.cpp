@@ -19,7 +19,7 @@ DeshpandeFleck foam(double alpha = 2.1) {
   return law;
 }
 
-// Of 1e-6 s. The law goes by the rate and J.
+// A step of 1e-6 s. The law depends on the rate and J.
 PointStep step_of(const Symmetric& rate, double J) { return {rate, 1e-6, J, spherical(std::cbrt(J))}; }
 
 DeshpandeFleck without_hardening(DeshpandeFleck law) {
@@ -90,9 +90,9 @@ TEST(MetalFoam, AlphaZeroIsJ2) {
   EXPECT_NEAR(one.state.equivalent_plastic_strain, other.state.equivalent_plastic_strain, 1e-10);
 }
 
-// σ̂ ε̂̇ = σ : ε̇_p: what is not stored is ∫ J Y dε̂, of which ∫ Y dε̂ is known in closed form without the locking term, and
-// what a volume under stress gives up as it shrinks, −∫ W dJ (3 % of it). Of the second order in the step, as all are
-// trapezoids, but for the step in which it yields.
+// σ̂ ε̂̇ = σ : ε̇_p: the dissipation is ∫ J Y dε̂, of which ∫ Y dε̂ is known in closed form without the locking term,
+// and the work that a volume under stress loses as it shrinks, −∫ W dJ (3 % of it). The error is of the second order in
+// the step, as all are trapezoids, but for the step in which it yields.
 TEST(MetalFoam, DissipatesWhatTheFlowStressDoes) {
   DeshpandeFleck law = foam();
   law.locking = 0;

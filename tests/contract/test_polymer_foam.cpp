@@ -285,9 +285,9 @@ Ledger mixed_ledger(int steps) {
   return sum;
 }
 
-// A step that flows closes to round-off. What elastic steps leave open is what E(ρ*) gives or takes: at most γ ε_e,
-// 1.5 %, of what is stored at first yield, 400 J/m³ of a work of 2.3e5. The dissipation is of the first order in the
-// step where the flow turns.
+// A step that flows closes to round-off. In elastic steps E(ρ*) gives or takes energy: at most γ ε_e, 1.5 %, of that
+// stored at first yield, 400 J/m³ of a work of 2.3e5. The dissipation is of the first order in the step where the flow
+// turns.
 TEST(PolymerFoam, TheLedgerCloses) {
   const Ledger coarse = mixed_ledger(400), fine = mixed_ledger(4000);
   for (const Ledger& sum : {coarse, fine}) EXPECT_NEAR(sum.stored + sum.lost, sum.work, 3e-5 * sum.work);

@@ -7,7 +7,7 @@ namespace strut::fuzz {
 
 namespace {
 
-// Of a header, in either order of its bytes.
+// A huge number of a header, in either order of its bytes.
 std::string huge_number(Random& random) {
   static const std::vector<std::uint64_t> numbers = {0,
                                                      1,

@@ -1,4 +1,4 @@
-// What is done to an input that is right.
+// Damage to a valid input.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What is different when the program is built with sanitizers.
+// Differences of a build with sanitizers.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__)

@@ -1,4 +1,4 @@
-// What reads inputs, and inputs that are right for each.
+// The readers of inputs, and valid inputs for each.
 #pragma once
 
 #include <filesystem>

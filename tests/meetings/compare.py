@@ -1,7 +1,7 @@
 """Two results that should be the same thing seen from two frames."""
 import numpy as np
 
-# What each field is: how it turns, its unit, and what is much of it in a scene, in spacings, waves' speeds and moduli.
+# Each field: how it turns, its unit, and a large value in a scene, in spacings, wave speeds and moduli.
 FIELDS = {
     "Displacement": ("vector", "m", lambda s: s.h),
     "Velocity": ("vector", "m/s", lambda s: s.speed),
@@ -90,7 +90,7 @@ def fields_differ(base, other, scene, frame, only=None, flight=True):
 
 
 def reaction_sum(result, parts):
-    """Of all conditions together: of points that two of them hold each counts what it changes, in their order."""
+    """The sum over all conditions: at a point of two conditions each counts its own change, in their order."""
     total = 0.0
     for name in parts:
         columns = [result.history.get(f"Reaction_{a}({name})") for a in "XYZ"]

@@ -77,7 +77,7 @@ class Frame:
         return (f"{factor!r}*({text})" if value.unit or factor != 1 else text) + more
 
     def way(self, axis):
-        """What the flight adds to a displacement."""
+        """The displacement by the flight."""
         return f" + {float(self.speed[AXES.index(axis)])!r}*(t - {self.begin!r})" if self.speed.any() else ""
 
     def value(self, value):
@@ -93,7 +93,7 @@ class Frame:
         return value
 
     def section(self, section):
-        """Of a tree of them all but conditions and cracks."""
+        """A tree of sections without conditions and cracks."""
         made = {name: self.section(value) if isinstance(value, dict) else self.value(value) for name, value in section.items()}
         for name in ("Initial Time", "Final Time"):
             if name in made:

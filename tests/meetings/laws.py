@@ -1,4 +1,4 @@
-"""What each run must keep by itself. Each law returns what is wrong, or None; a scene that it does not apply to raises NotHere with the reason."""
+"""The laws of a single run. Each law returns a violation, or None; a scene that it does not apply to raises NotHere with the reason."""
 import numpy as np
 
 from compare import ENERGIES
@@ -119,7 +119,7 @@ def impulses_of_load(scene, one, time):
 
 
 def angular_momentum(scene, base, written):
-    """Of free bodies: central differences keep Σ m y × v where no force has a moment."""
+    """For free bodies: central differences keep Σ m y × v where no force has a moment."""
     if not scene.explicit or scene.has(*REACTING, "Body Force", "Non-Reflecting End", "Periodic Sides"):
         raise NotHere("something acts from outside")
     m = (base.frames[0]["Volume"] * base.frames[0]["Density"])[:, None]
@@ -184,7 +184,7 @@ def passive(scene, base, written):
             raise NotHere("something drives them")
     rows = base.history
     held = sum(rows[n] for n in ("Kinetic_Energy", "Elastic_Energy", "Plastic_Work", "Stabilization_Energy", "Fracture_Energy", "Tool_Kinetic_Energy"))
-    # What viscosity takes in a step is that of the mean of both ends: half of it may belong to the step before, or after.
+    # The viscous work of a step is that of the mean of both ends: half of it may belong to the step before, or after.
     known = 0.5 * np.diff(rows["Plastic_Work"]).max(initial=0) if has_viscosity(scene) else 0
     gained = (held[1:].max() - known) / max(held[0], 1e-12 * scene.masses().sum() * scene.speed**2) - 1
     if gained > 1e-2 and not told(base, "energy"):

@@ -50,7 +50,7 @@ ATTEMPTS = 40  # to draw a scene that is not refused
 
 
 def failure_of(case, name):
-    """What is wrong with a law or relation, or None; and why it was not asked."""
+    """The violation of a law or relation, or None; and the reason why it was not checked."""
     try:
         if name in LAWS:
             if case.base.status == 1 and name != "stable":

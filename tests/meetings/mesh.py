@@ -47,7 +47,7 @@ class Mesh:
         return self.volumes if self.nodes is None else hexahedra_of(self.nodes[self.hexahedra])[0]
 
     def site_volumes(self):
-        """Of a node its part of the elements around it, ∫N dV."""
+        """A node has its part of the elements around it, ∫N dV."""
         if not self.at_nodes:
             return self.element_volumes()
         volumes = np.zeros(len(self.nodes))
@@ -132,7 +132,7 @@ class Mesh:
 
 
 def joined(meshes):
-    """Of one kind, their blocks as they are."""
+    """Meshes of one kind, their blocks unchanged."""
     first = meshes[0]
     blocks = np.concatenate([m.blocks for m in meshes])
     if first.nodes is None:
@@ -160,7 +160,7 @@ def of_box(kind, box, block_of_cell, jitter, rng, at_nodes=False, name=""):
 
 
 def gauss_points(corners):
-    """Of each hexahedron, right to degree 3 in each local coordinate: shape functions, and the volume that each point stands for."""
+    """Gauss points of each hexahedron, exact to degree 3 in each local coordinate: shape functions, and the volume of each point."""
     gauss = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3)
     for at in np.array(np.meshgrid(gauss, gauss, gauss)).reshape(3, -1).T:
         parts = np.where(CORNERS == 1, at, 1 - at)

@@ -69,11 +69,11 @@ class Case:
         return self.differ(base, one, other, two, frame, fixed=dt, reactions=reactions, **compared)
 
     def smallest_step(self):
-        """Of any point: those that are subcycled take parts of a step."""
+        """The smallest step of any point: those that are subcycled take fractions of a step."""
         return self.base.history["Step_Size"].min() / substeps(self.base)
 
     def signs_in_shorter_steps(self):
-        """What a break dissipates is a difference from the work of the mean of the forces at both ends of its step, right to second order in
+        """The dissipation of a break is a difference from the work of the mean of the forces at both ends of its step, right to second order in
         the step, and to nothing above the critical one: it must be gone in steps of an eighth."""
         if not self.scene.explicit:
             raise NotHere("nothing breaks in equilibria")
@@ -356,7 +356,7 @@ def broken_off(case):
 
 
 def checked(case):
-    """What `--check` says of it."""
+    """The output of `--check`."""
     checked = case.runner.run(case.written, "--check", name="other")
     if checked.status in ("crash", "hang"):
         return checked.status
@@ -514,7 +514,7 @@ def half_of_it(case):
 
 
 def halves_differ(case, half, whole, axis):
-    """What is wrong, the run of the half, and the fields that differ."""
+    """The difference, the run of the half, and the fields that differ."""
     one, two = case.runner.run(written(half), name="half"), case.runner.run(written(whole), name="whole")
     if any("contact does not see mirror images" in line for line in one.warnings):
         raise NotHere("contact does not see mirror images, and a warning says so")
@@ -554,7 +554,7 @@ def stands_in_the_body(cylinder, scene):
 
 
 def folded(text, name, at):
-    """Of |x| in the place of x, seen from the plane."""
+    """|x| instead of x, seen from the plane."""
     return text.replace(f"{{{name}}}", f"(fabs({{{name}}}) + {float(at)!r})")
 
 

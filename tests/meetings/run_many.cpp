@@ -1,8 +1,8 @@
 // Many small runs by one process (or by the ranks of one mpirun), since most of the time of a small run is that of
 // MPI's start: 0.4 s for some milliseconds. Reads a run a line: its folder, and the words that strut would get in it,
 //   /tmp/scene --threads 2 deck.xml
-// runs it there and answers with its exit status. What it says goes to the file `log` in the folder. Before the deck
-// there may be `--break 4 WORD`: the run gets a SIGTERM as it says WORD for the fourth time, which is the same step
+// runs it there and answers with its exit status. Its output goes to the file `log` in the folder. Before the deck
+// there may be `--break 4 WORD`: the run gets a SIGTERM as it prints WORD for the fourth time, which is the same step
 // each time.
 #include <csignal>
 #include <cstdio>

@@ -85,7 +85,7 @@ class Runner:
         self.folder, self.count = Path(folder), 0
 
     def run(self, written, *options, ranks=1, name="run", keep=False, limit=LIMIT):
-        """Of a written scene, in a folder of its own; `keep` what is there, to go on with it."""
+        """Runs a written scene in a folder of its own; `keep`: keeps existing files, to continue the run."""
         folder = self.folder / name
         if not keep:
             shutil.rmtree(folder, ignore_errors=True)

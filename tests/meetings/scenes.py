@@ -79,7 +79,7 @@ class Scene:
         return "; ".join(words)
 
     def masses(self):
-        """Of the sites. A node that blocks share belongs to the first of them in the file (src/io/README.md)."""
+        """Masses of the sites. A node that blocks share belongs to the first of them in the file (src/io/README.md)."""
         density = {b: self.density_of_block(b) for b in set(self.mesh.blocks)}
         return np.array([density[b] for b in self.mesh.owners()]) * self.mesh.site_volumes()
 
@@ -150,7 +150,7 @@ def part_of_solid(material):
 
 
 class Draft:
-    """What has been drawn so far, and chance."""
+    """The scene so far, and the random numbers."""
 
     def __init__(self, schema, seed):
         self.schema, self.seed = schema, seed
@@ -306,7 +306,7 @@ class Draft:
             self.stiffest, self.softest = max(self.stiffest, modulus), min(self.softest, self.E * part_of_solid(material))
 
     def reconciled(self, material):
-        """What one key forbids another (the deck's reader refuses it)."""
+        """Removes keys that others forbid (the deck's reader refuses them)."""
         flow = material.get("Flow Stress", {}).get("Type", "Hardening and Rate")
         if flow != "Hardening and Rate":
             for name in ("Yield Stress", "Hardening", "Rate", "Softening"):
@@ -356,7 +356,7 @@ class Draft:
         return sections
 
     def may_fail(self, model, material):
-        """What the deck's reader would refuse; of a model that is new, nothing."""
+        """False where the deck's reader would refuse failure; for a new model always true."""
         if material.get("Equation of State", {}).get("Type", "None") != "None" or material["Material Model"] == "Hyperelastic":
             return False
         if model == "Bond Energy":

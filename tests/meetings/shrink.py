@@ -95,7 +95,7 @@ def kind_of(problem):
 
 
 def alike(one, other):
-    """Of fields it does not matter which one differs most."""
+    """Compares without regard to the field that differs most."""
     of_field = lambda text: re.match(r"\w+: [\d.]", text) is not None
     return kind_of(one) == kind_of(other) or (of_field(one) and of_field(other))
 

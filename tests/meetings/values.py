@@ -1,4 +1,4 @@
-"""What a key of the deck may be in a scene: a table by key, with the ranges that keep small scenes lively (some percent of strain,
+"""The values of each key of the deck in a scene: a table by key, with ranges that keep small scenes lively (some percent of strain,
 some tens of steps). A key or choice of the schema that is neither here nor in NOT_DRAWN fails the test.
 
 Units are those of the schema; a `c` is what a scene has drawn so far (scenes.Draft): c.h spacing, c.E, c.nu, c.rho, c.flow a flow

@@ -44,8 +44,8 @@ struct NeoHookean {
 
   Moduli moduli() const { return {bulk, shear}; }
 
-  // Of the spatial elasticity tensor (λ/J) I⊗I + (2/J) (μ − λ ln J) 1. What is left of μ in expansion is not counted:
-  // the stress adds to the stiffness there.
+  // Moduli of the spatial elasticity tensor (λ/J) I⊗I + (2/J) (μ − λ ln J) 1. The reduction of μ in expansion is left
+  // out: the stress adds to the stiffness there.
   Moduli moduli(const State& state) const {
     const double J = std::exp(state.logarithmic_volume);
     const double now = std::max(shear, shear - lame() * state.logarithmic_volume) / J;

@@ -27,7 +27,7 @@ struct Errors {
   double highest = 0;  // ω h/c
 };
 
-// What vibrates, as a matrix by mass; E = ρ = 1.
+// A vibrating body as a matrix by mass; E = ρ = 1.
 struct Method {
   std::string name;
   std::function<SparseMatrix(const PointCloud&)> matrix;
@@ -40,7 +40,7 @@ SparseMatrix matrix_by(const Scheme& scheme, const PointCloud& cloud) {
   return by_mass(stiffness_matrix(body), masses_of(body));
 }
 
-// What others would take: points move at the corners of the same cells.
+// The usual alternative: finite elements whose nodes are the corners of the same cells.
 SparseMatrix matrix_by_elements(const PointCloud& cloud) {
   const VoxelMesh mesh = voxels_of(cloud);
   return by_mass(matrix_of(mesh, voxel_stiffness(mesh.edge, 1, frequencies_poisson)), masses_of(mesh, 1));

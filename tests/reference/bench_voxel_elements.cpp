@@ -14,7 +14,7 @@
 namespace strut::reference {
 namespace {
 
-// Of this process, so that others on the machine count less.
+// Processor time of this process, so that others on the machine count less.
 double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Ends {

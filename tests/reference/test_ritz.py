@@ -44,7 +44,7 @@ def test_a_cube_has_the_modes_of_lame():
 
 
 def test_long_bars_come_near_the_theories_of_bars():
-    """Of Euler and Bernoulli, and of Navier: right but for the square of thickness over wavelength. An ideal beam's
+    """Theories of Euler and Bernoulli, and of Navier: exact but for the square of thickness over wavelength. An ideal beam's
     beta L is 4.73004; the first correction, of shear and rotatory inertia, is some (pi/L)^2 at L = 20: 2 %."""
     for section, radius_of_gyration in ("square", math.sqrt(1 / 12)), ("round", 0.25):
         found = frequencies("--section", section, "--length", "20", "--poisson", "0.3", "--count", "20",

@@ -220,8 +220,8 @@ TEST(Vibration, IsWhatADenseSolverFinds) {
   EXPECT_NEAR(found.highest, std::sqrt(all[all.size() - 1]), 1e-3 * found.highest);
 }
 
-// The errors of a strut three and six points thick against Ritz. Of first order at the surface, of higher inside:
-// measured 0.34 to 0.55 of them are left at half the spacing.
+// The errors of a strut three and six points thick against Ritz. They are of first order at the surface, of higher
+// order inside: measured 0.34 to 0.55 of them are left at half the spacing.
 TEST(Vibration, ComesNearTheExactOneWithTheSpacing) {
   const auto errors = [](int across) {
     Body body = body_of(square_prism(across, PointsAt::elements));
@@ -234,7 +234,7 @@ TEST(Vibration, ComesNearTheExactOneWithTheSpacing) {
   for (int m = 0; m < 6; ++m) EXPECT_LT(fine[m], 0.6 * coarse[m]) << "mode " << m;
 }
 
-// What users are told: the share of the bending stiffness of prisms at elements.
+// The fraction of the bending stiffness of prisms at elements that the program reports to users.
 TEST(BendingStiffnessKept, IsWhatIsMeasured) {
   for (const int across : {3, 4, 6}) {
     Body body = body_of(square_prism(across, PointsAt::elements), "mean gradient");
@@ -269,9 +269,8 @@ TEST(QuadraticCorrespondence, HasLittleForceAtFreeSurfacesOfUniformStress) {
 // Errors of the stiffness of the first six modes of round struts in any direction, of cells that know their moments.
 // The mean sizes over twenty struts are 10.3, 5.6, 4.4, 2.4 % with 2, 3, 4, 6 cells across (bench_thin_members); over
 // the first six of them they scatter by a tenth of that. No zero-energy mode beside the rigid motions.
-//   The largest is what users are told, which is not twice too much. Of torsion a frequency tells no stiffness: the
-//   mass
-// of a cell is in its middle, the moment of inertia short by 1/n².
+// The program reports the largest error to users; the report is not twice too much. A frequency of torsion gives no
+// stiffness: the mass of a cell is in its middle, the moment of inertia short by 1/n².
 TEST(QuadraticCorrespondence, KeepsTheStiffnessOfThinStrutsAsIsTold) {
   constexpr int torsion = 2;
   for (const auto& [across, struts, limit] : {std::tuple(2, 6, 0.13), {3, 6, 0.09}, {4, 6, 0.07}, {6, 2, 0.04}}) {

@@ -28,7 +28,7 @@ std::vector<std::int64_t> corners(const Place& cell) {
   return numbers;  // ascending, as numbers go by z, y, x
 }
 
-// Of the elements around a node, each of 2³ small cubes.
+// The elements around a node, each made of 2³ small cubes.
 std::vector<std::int64_t> elements_around(const Place& node, const SmallCubes& body) {
   std::vector<std::int64_t> numbers;
   for (int k = -1; k < 1; ++k) {

@@ -21,7 +21,7 @@ struct Placement {
 // Spread evenly over all directions and offsets; the same on every machine, and the first ones whatever the count.
 std::vector<Placement> random_placements(int count);
 
-// What becomes of the cells that the surface cuts.
+// Treatment of the cells that the surface cuts.
 //   whole   those whose center is inside are full, the others empty
 //   cut     each keeps what is inside, in 6³ parts; cells below 30 % go to the neighbor across a face with the most
 enum class Cells { whole, cut };

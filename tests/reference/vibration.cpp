@@ -11,8 +11,8 @@ namespace strut::reference {
 
 namespace {
 
-// Of squares of frequencies beside the highest: round-off of a sum over some hundred bonds leaves 1e-14 of it to a
-// rigid motion, and the first bending of a strut six points thick has 1e-4.
+// Zero, relative to the highest of the squares of frequencies: round-off of a sum over some hundred bonds leaves 1e-14
+// to a rigid motion, and the first bending of a strut six points thick has 1e-4.
 constexpr double zero = 1e-9;
 
 constexpr int room = 30;  // modes besides the wanted ones that the search keeps: rigid ones, and what has no stiffness

@@ -10,9 +10,9 @@ namespace strut::reference {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-// Of a body at rest on one rank, N/m, three rows a point: the tangent applied to unit displacements. `reach`: as many
-// horizons away a point can feel another through its forces. Throws Error where the matrix is not symmetric: then the
-// reach is too short, or forces have no energy.
+// The stiffness of a body at rest on one rank, N/m, three rows a point: the tangent applied to unit displacements.
+// `reach`: the number of horizons within which points feel each other through their forces. Throws Error where the
+// matrix is not symmetric: then the reach is too short, or forces have no energy.
 SparseMatrix stiffness_matrix(Body& body, double reach = 3);
 
 // kg, of the points.
@@ -27,7 +27,8 @@ struct Vibration {
   double highest = 0;               // of all, rad/s
 };
 
-// Of a matrix by mass. Throws Error where there are too many modes without stiffness to find `count` others.
+// The vibration of a matrix by mass. Throws Error where there are too many modes without stiffness to find `count`
+// others.
 Vibration vibration_of(const SparseMatrix& by_mass, int count);
 
 }  // namespace strut::reference

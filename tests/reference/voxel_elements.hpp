@@ -20,7 +20,7 @@ struct VoxelMesh {
   std::vector<Corners> voxels;
 };
 
-// Of all blocks. Throws Error where an element is not a cube along the axes, as large as the others.
+// The voxels of all blocks. Throws Error where an element is not a cube along the axes, as large as the others.
 VoxelMesh voxels_of(const io::Mesh& mesh);
 // The whole cells that these points at elements stand for, with their shared nodes for corners (thin_members.hpp).
 VoxelMesh voxels_of(const PointCloud& elements);
@@ -28,12 +28,12 @@ VoxelMesh voxels_of(const PointCloud& elements);
 // N/m; component c of corner n is number 3 n + c.
 using VoxelStiffness = Eigen::Matrix<double, 24, 24>;
 VoxelStiffness voxel_stiffness(double edge, double young, double poisson);
-// Of all nodes.
+// The stiffness matrix of all nodes.
 Eigen::SparseMatrix<double> matrix_of(const VoxelMesh& mesh, const VoxelStiffness& stiffness);
-// Of the nodes, an eighth of each voxel around them; kg.
+// Masses of the nodes, an eighth of each voxel around them; kg.
 Eigen::VectorXd masses_of(const VoxelMesh& mesh, double density);
 
-// Of the nodes, a vector and a number that is not looked at; and a last one that no node has.
+// A vector of each node and an unused number; the last entry belongs to no node.
 using NodeField = std::vector<Eigen::Array4d>;
 
 // As many voxels side by side as a register has lanes: their nodes, [corner][lane], and a vector at each corner (or of

@@ -1,4 +1,4 @@
-// What a free body must keep while it moves: momentum, and the balance of energy.
+// The quantities that a free body must keep while it moves: momentum, and the balance of energy.
 #pragma once
 
 #include <algorithm>

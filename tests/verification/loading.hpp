@@ -115,8 +115,8 @@ struct Bar : Loaded {
   int low, high;
 };
 
-// What the laws in rates take for the strain of a point: the sum of 2 (λ − λ₀)/(λ + λ₀) over steps, ln λ but for a
-// twelfth of the cube of a step's.
+// The strain of a point by the laws in rates: the sum of 2 (λ − λ₀)/(λ + λ₀) over steps, ln λ but for a twelfth of the
+// cube of a step's.
 class Gauge {
  public:
   Gauge(const Body& body, const Vector& place) : body_(body), point_(point_at(body, place)) {}
@@ -172,7 +172,7 @@ inline std::vector<Vector> displacements(const Body& body) {
   return all;
 }
 
-// Of two bodies made alike.
+// The largest difference of two bodies made alike.
 inline double largest_difference(const Body& one, const Body& other) {
   return largest_over(one, [&](int i) { return (one.displacement(i) - other.displacement(i)).norm(); });
 }

@@ -1,4 +1,4 @@
-// What several tests ask of a body: does it stay bounded at a step, and what does the linearized operator make of a
+// Questions of several tests to a body: does it stay bounded at a step, and what does the linearized operator make of a
 // wave?
 #pragma once
 

@@ -112,7 +112,7 @@ class Painter:
         self.window.AddRenderer(self.renderer)
 
     def take(self, data, camera):
-        """What the next images show."""
+        """Sets the data and the camera of the next images."""
         self.normals.SetInputData(data)
         self.normals.Update()
         self.mapper.SetInputData(self.normals.GetOutput())
@@ -173,7 +173,7 @@ def coarser(image):
 
 
 class Solid:
-    """What is seen of a surface of points: the point at each fine pixel, its light, and how near it is."""
+    """The visible side of a surface of points: the point at each fine pixel, its light, and its depth."""
 
     def __init__(self, painter, data, points, camera):
         painter.take(data, camera)
@@ -192,7 +192,7 @@ class Solid:
 
 
 class Glass:
-    """Of a surface that is seen through, of one color; it is denser where it is seen at a slant."""
+    """A transparent surface of one color; it is denser where it is seen at a slant."""
 
     def __init__(self, painter, data, color, camera):
         painter.take(data, camera)

@@ -44,7 +44,7 @@ class Tool:
         return np.array([0.0 if text is None else self._at(key, text, t) for key, text in travel])
 
     def _flight(self):
-        """Of a tool with a mass, from the forces on it in the deck's history: times, and the way along each axis."""
+        """Path of a tool with a mass, from the forces on it in the deck's history: times, and the displacement along each axis."""
         table = history(self.deck.get("History", "Filename", default="a History, which this tool needs,"))
         times = table["Time"]
         return times, [self._way(c, times, table) for c in "XYZ"]
@@ -62,7 +62,7 @@ class Tool:
         return cumulative_trapezoid(speed + impulse / self.mass, times, initial=0)
 
     def surface(self, low, high):
-        """What of it is near the box of the bodies (corners, m), before it travels."""
+        """The part of it near the box of the bodies (corners, m), before it travels."""
         if self.kind == "Rigid Box":
             return block(self.vector("Lower Corner"), self.vector("Upper Corner"))
         point, axes = self.vector("Point"), axes_along(self.vector("Axis" if self.kind == "Rigid Cylinder" else "Normal"))

@@ -60,12 +60,12 @@ def polydata(corners, quads):
 
 
 def places_of(data):
-    """Of VTK's."""
+    """Positions of VTK's points."""
     return vtk_to_numpy(data.GetPoints().GetData())
 
 
 def edge_of(places, volumes):
-    """Of the mean point as a cube."""
+    """Edge of the mean point as a cube."""
     if volumes is not None:
         return np.cbrt(volumes.mean())
     sides = np.ptp(places, axis=0)
@@ -74,7 +74,7 @@ def edge_of(places, volumes):
 
 
 def spacing_of(places, volumes):
-    """Of points, along each axis, and the volume of each; None where bumps of one width do not join them."""
+    """Spacing of points along each axis, and the volume of each; None where bumps of one width do not join them."""
     edge = edge_of(places, volumes)
     gaps = [np.diff(np.sort(x)) / edge for x in places.T]
     least = np.array([np.min(between[between > 0.02], initial=np.inf) for between in gaps])

@@ -23,7 +23,7 @@ PAUSE = 60  # ms between the pictures of a movie
 
 @dataclasses.dataclass
 class Wanted:
-    """What the command line asks for."""
+    """The request of the command line."""
     variables: list = None
     view: tuple = (1, -2.2, 0.6)
     zoom: float = 1
@@ -75,7 +75,7 @@ def kept(result, block, clip, towards):
 
 
 def hidden_points(result, frame, hide):
-    """Of all points, whether a variable is above a value there; such as damage, to see into cracks."""
+    """For all points, whether a variable is above a value there; such as damage, to see into cracks."""
     if not hide:
         return np.zeros(len(result.reference), bool)
     name, most = hide
@@ -132,7 +132,7 @@ class Row:
         return (self.least, self.most) if high - low > 0.85 * (self.most - self.least) else (low, high)
 
     def colors(self, column):
-        """Of all points."""
+        """Colors of all points."""
         value, span = self.values(column), self.high - self.low
         color = SCALE((value - self.low) / (span if span > 0 else 1))[:, :3]
         color[self.grey | ~np.isfinite(value)] = GREY

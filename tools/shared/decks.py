@@ -44,7 +44,7 @@ class Deck:
         return default if found is None else found
 
     def file(self, *names):
-        """Of a file beside the deck."""
+        """Path of a file beside the deck."""
         value = self.get(*names)
         return value and os.path.join(os.path.dirname(self.path), value)
 
@@ -56,7 +56,7 @@ class Deck:
 
     @classmethod
     def of(cls, path, text):
-        """Of a text, as if it stood there."""
+        """A deck from a text, as if it stood there."""
         deck = object.__new__(cls)
         deck.path, deck.text, deck.root = path, text, tree.fromstring(text)
         return deck

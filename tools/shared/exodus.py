@@ -62,7 +62,7 @@ def check(path, blocks, sets):
 
 
 def numbers_of(names, prefix):
-    """Of blocks or sets: those in names like block_7 where all have one, else 1, 2, …"""
+    """Numbers of blocks or sets: those in names like block_7 where all have one, else 1, 2, …"""
     found = {int(match[1]) for name in names if (match := re.fullmatch(prefix + r"_([1-9]\d{0,8})", name))}
     return [int(name[len(prefix) + 1:]) for name in names] if len(found) == len(names) else range(1, len(names) + 1)
 

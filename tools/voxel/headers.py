@@ -1,4 +1,4 @@
-"""What headers of NRRD and MetaImage say of the unit of lengths and the order of bytes; numbers that were read in the wrong order."""
+"""Unit of lengths and order of bytes by headers of NRRD and MetaImage; numbers that were read in the wrong order."""
 import re
 
 import numpy as np

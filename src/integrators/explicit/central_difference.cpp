@@ -19,8 +19,8 @@ namespace strut {
 
 namespace {
 
-// The damping of every shrinking point, also the slowest. It reduces the step from the start: a step that shrank only
-// while a point does would change as soon as a body is struck, and each change costs energy.
+// The largest linear viscosity. It reduces the step from the start: a step that was reduced only while a point shrinks
+// would change as soon as a body is struck, and each change costs energy.
 double linear_viscosity(const Body& body) {
   double most = 0;
   for (const MaterialBlock& block : body.blocks) most = std::max(most, block.material.viscosity.linear);
@@ -94,8 +94,8 @@ void CentralDifference::advance_velocity(double final_time) {
   if (!energies_.has_begun()) energies_.begin_with(ledger(), is_first ? energy_of_half_step(inner) : 0);
 }
 
-// The scheme conserves ½ m v⁻·v⁺ and the strain energy, whose first value is ½ m (v² − (½ Δt a)²): of this, the part of
-// the inner forces, which do no work that is counted.
+// The scheme conserves the strain energy plus ½ m v⁻·v⁺, at the start ½ m (v² − (½ Δt a)²). Returns the part of the
+// second term by the inner forces, since their work is not counted.
 double CentralDifference::energy_of_half_step(const std::vector<Vector>& inner) const {
   double sum = 0;
   for (int i = 0; i < body_.owned(); ++i) {
@@ -214,8 +214,8 @@ void CentralDifference::count_work(double impulse_time) {
   energies_.end_impulse(mid_steps_);
 }
 
-// Output takes the mean of both velocities for the velocity at the time of the forces. Where the two steps differ, the
-// velocity before is replaced by that of a step as long as the one after.
+// Output takes the mean of both velocities for the velocity at the time of the forces. If the two steps differ, the
+// velocity before is replaced by that for a step as long as the one after.
 void CentralDifference::even_out() {
   for_each_point(0, body_.owned(), [&](int i) {
     Vector& before = body_.previous_velocity[i];

@@ -16,28 +16,28 @@ namespace {
 // the residual after a step is of the order of its square (Eisenstat & Walker 1996, choice 2).
 constexpr double of_first = 1e-3, coarsest = 3e-2, finest = 1e-4;
 
-// Accuracy of the error when a point begins to touch a tool: the residual is then that of a stiff spring, and the force
-// on the body a small part of it.
+// Relative accuracy when a point begins to touch a tool: the residual is then mostly that of a stiff spring, and the
+// force on the body a small part of it.
 constexpr double of_touch = 1e-2;
 constexpr int most_products = 400;
 
-// Damping: its first value, and the least before it ends; factors on it if the tangent is not positive along the step,
-// if only a short part of the step is downhill, and if the forces decrease quickly, or at all.
+// Damping: its first value, and the value below which it ends; its factors if the tangent is not positive along the
+// step, if only a short part of the step is downhill, and if the forces decrease quickly or slowly.
 constexpr double first_damping = 1e-2, least_damping = 1e-5;
 constexpr double where_unstable = 10, where_short = 4, where_quick = 0.1, where_slow = 0.4;
 constexpr double short_part = 0.1, long_part = 0.5;  // of a step
 constexpr int most_damped = 8;                       // iterations; beyond these relaxation takes over
-constexpr int most_products_damped = 200;            // better directions are not worth more, nor a restart of GMRES
+constexpr int most_products_damped = 200;            // more would cost more than a better direction saves
 
 // Number of multigrid products for one system after which thin bodies use factors for the rest of the run: the springs
-// of multigrid do not show a strut that flows or slides. Below it multigrid is faster (docs/decisions.md).
+// of multigrid do not represent a strut that flows or slides. Below it multigrid is faster (docs/decisions.md).
 constexpr int most_of_multigrid = 200;
 
-// A hierarchy is kept until systems take this much longer than just after it was made; factors until they take this
-// much longer than making others would.
+// A multigrid hierarchy is kept until systems take this many times as long as just after it was made; factors until
+// they take this many times as long as new factors would.
 constexpr double wear = 1.5;
 
-// True if a displacement increment is left besides the round-off of times.
+// True if the displacement increment is more than the round-off of times.
 bool is_a_way(const Field& way, const Body& body) {
   double farthest = 0;  // in spacings
   for (std::size_t i = 0; i < way.size(); ++i) {
@@ -61,7 +61,7 @@ double Newton::mean_spring(const BlockRows& matrix) const {
   return sums[0] / sums[1];
 }
 
-// Without the stiffness that is not the body's own: contact would prevent sliding, too.
+// Stiffness of damping by the body's own stiffness alone: with that of contact it would prevent sliding, too.
 void Newton::renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra) {
   drag_.resize(extra.size());
   for (std::size_t i = 0; i < extra.size(); ++i) {

@@ -62,11 +62,11 @@ class Body:
         return self.solid(places, 0).mean() * 4 * far * far * self.height
 
     def plate_speed(self):
-        """Of the ends from each other, m/s."""
+        """Speed of the ends relative to each other, m/s."""
         return self.speed * WAVE
 
     def plate_velocity(self, turn):
-        """Of the upper end, m/s; the lower one has the opposite."""
+        """Velocity of the upper end, m/s; the lower one has the opposite."""
         c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
         return self.plate_speed() / 2 * np.array([c, s, 0] if self.shear else [0, 0, -1])
 

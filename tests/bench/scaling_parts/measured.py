@@ -97,7 +97,7 @@ class Bench:
 
 
 def least(rows):
-    """Of the same run: the least time of each."""
+    """The least times of repeated runs."""
     return rows[0] | {name: min(row[name] for row in rows) for name in (*START, "frame", "checkpoint")}
 
 

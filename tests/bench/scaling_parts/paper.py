@@ -1,4 +1,4 @@
-"""What follows from the measured runs for many more points and ranks."""
+"""Extrapolation of the measured runs to many more points and ranks."""
 import os
 
 import numpy as np
@@ -7,7 +7,7 @@ from scaling_parts import measured
 POINTS, RANKS = 10**8, 1024
 REACH = 2  # spacings, of ghosts around a rank's cube: the horizon, rounded up
 
-# What a job bears: a core's share of a node's memory, and of an hour.
+# Limits of a job: memory of a core in bytes; start, a frame, a checkpoint in s.
 MEMORY, START, FRAME, CHECKPOINT = 2e9, 600, 60, 180
 
 

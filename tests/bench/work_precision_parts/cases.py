@@ -145,7 +145,7 @@ class Torsion(Case):
 
 
 def minimum(function, low, high):
-    """Of a function that has one near the best of a hundred samples."""
+    """The minimum of a function that has one near the best of a hundred samples."""
     for _ in range(6):
         samples = np.linspace(low, high, 101)
         best, width = samples[np.argmin([function(x) for x in samples])], (high - low) / 100

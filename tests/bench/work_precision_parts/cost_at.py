@@ -1,4 +1,4 @@
-"""What each scheme would cost at a given error: power laws through its rows."""
+"""The cost of each scheme at a given error: power laws through its rows."""
 import math
 
 

@@ -105,10 +105,10 @@ class Runner:
 
 
 def seconds(report):
-    """Of the steps, on the clock."""
+    """Wall time of the steps."""
     return sum(seconds_of_phase(report, phase) for phase in STEPPING)
 
 
 def share_of_steps(report):
-    """Of the time on the clock; start-up and output are not the method's."""
+    """Fraction of the wall time; start-up and output are not the method's."""
     return seconds(report) / max(seconds_of_phase(report, "whole run"), 1e-9)

@@ -70,7 +70,7 @@ Scatter block_on_lattice(const PlaceOf& place_of) {
 
 const std::vector<BlockBonds> bonds{{horizon, 0}, {horizon, 0}, {1.1 * horizon, 1}};
 
-// What this rank owns of it, moved.
+// The moved part of the body that this rank owns.
 struct Part {
   Domain domain;
   std::vector<Vector> velocities;
@@ -174,7 +174,7 @@ std::int64_t compare_search(const Scatter& all) {
   return world.sum(static_cast<std::int64_t>(expected.size()));
 }
 
-// What bounding volumes rule out is nothing: far and bonded ones in a block that is folded until its halves meet …
+// Bounding volumes exclude no pair: far and bonded ones in a block that is folded until its halves meet …
 TEST(Contact, SearchFindsExactlyThePairsOfAFoldedBlock) {
   const Tensor turn = Eigen::AngleAxisd(0.7, Vector(1, 2, -1).normalized()).toRotationMatrix();
   const Tensor fold = Eigen::AngleAxisd(-2.6, Vector::UnitY()).toRotationMatrix();
@@ -232,7 +232,7 @@ TEST_P(ContactOfBlocks, NoPairIsMissedBeforeASkinIsUsedUp) {
   EXPECT_GT(world.sum(gained), 4) << "nothing new has come to touch";
 }
 
-// What has partners uses up no skin distance by moving together, whatever the others do.
+// Points with partners that move together use up no skin distance, whatever the others do.
 TEST_P(ContactOfBlocks, TheFrameIsThatOfPointsWithPartners) {
   const auto [a, b] = GetParam();
   const BlockPair blocks = part.blocks(a, b);

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Sums on a lattice with the springs of either stabilization, families by lists, subcycled, quadratic, ordinary, contact,
 # bonds that break in each way, and equilibria, on 1, 2 and 4 threads of a rank: frames and histories must be the same to
-# the last bit; and so must what is told of a run that fails. Frames of two ranks of three threads, too. What is no number
-# of threads is refused.
+# the last bit; and so must the error of a run that fails. Frames of two ranks of three threads, too. An
+# invalid number of threads is refused.
 #   threads.sh strut strut-mesh strut-compare mpirun [its options]
 set -u
 strut=$1 mesh=$2 compare=$3

@@ -56,7 +56,7 @@ PointCloud whole_cloud(const Case& c) {
   return cloud;
 }
 
-// What a reader delivers.
+// The slice of a rank, as a reader delivers it.
 PointCloud slice(const PointCloud& whole, const Communicator& world) {
   std::vector<int> mine;
   const auto n = static_cast<int>(whole.size());
@@ -209,7 +209,7 @@ TEST_P(DomainOf, SmallestAndLargestHorizonOfABlockAreThoseOfAllRanks) {
   }
 }
 
-// Of the sites' numbers only places travel, others stay.
+// The halo exchanges only the positions of sites; their other numbers stay.
 TEST_P(DomainOf, HaloMovesThePlacesAndNoOthers) {
   const auto place = [](Id id, int round) { return Vector(static_cast<double>(id), 0.5 * round, -1); };
   for (Site& site : domain.sites) site.current[3] = -7;
@@ -309,7 +309,8 @@ TEST(Lattice, NeighborsAtExactlyTheHorizonAreIn) {
 // ---- Bonds through material, shapes and shared nodes
 // ----------------------------------------------------------------------
 
-// Cells of a porous block, with their corners for shared nodes; shapes by their ids. Of two blocks one above the other.
+// Cells of a porous block, or of two blocks one above the other, with their corners for shared nodes; shapes by their
+// ids.
 struct Porous {
   double filled;   // the part of the cells that is there
   double horizon;  // spacings; of the upper block 0.8 of it

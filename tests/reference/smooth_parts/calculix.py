@@ -25,7 +25,7 @@ def metal(young, poisson):
 
 
 def boundary(motions):
-    """Of nodes (a mask), direction and displacement; where two say something of the same, the last one holds."""
+    """Nodes (a mask), direction and displacement of each motion; of contradicting ones the last one holds."""
     placed = {(node + 1, axis): value for chosen, axis, value in motions for node in numpy.flatnonzero(chosen)}
     return ["*BOUNDARY", *[f"{node}, {axis}, {axis}, {value:.12g}" for (node, axis), value in placed.items()]]
 

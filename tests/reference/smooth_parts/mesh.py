@@ -81,7 +81,7 @@ def pyramid(a, b, c, d, top):
 
 
 def inner_parts(tets, signs, cut, first):
-    """Of the tetrahedra what is inside. Crossing k of `cut` is corner first + k."""
+    """The inner parts of the tetrahedra. Crossing k of `cut` is corner first + k."""
     order = numpy.argsort(signs[tets], axis=1, kind="stable")  # inner corners first, outer last
     tets = numpy.take_along_axis(tets, order, 1)
     inner, outer = (signs[tets] < 0).sum(1), (signs[tets] > 0).sum(1)
@@ -133,13 +133,13 @@ def straight_mesh(struts, cells):
     corners = numpy.concatenate([corners, places])
     size = volumes(corners, tets)
     tets[size < 0] = tets[size < 0][:, [1, 0, 2, 3]]
-    # What is left of corners that were moved into one plane.
+    # Removes flat tetrahedra, whose corners were moved into one plane.
     tets = tets[numpy.abs(size) > 1e-6 * numpy.abs(size).max()]
     return corners, largest_piece(tets, len(corners)), is_surface
 
 
 def surface_edges(tets, edges, numbers, is_surface, corners, size):
-    """Of the triangles that one tetrahedron alone has, not in a face of the box."""
+    """Edges of the triangles that belong to one tetrahedron only, not in a face of the box."""
     sides = [(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)]
     triangles = numpy.sort(tets[:, sides].reshape(-1, 3), axis=1)
     unique, counts = numpy.unique(triangles, axis=0, return_counts=True)

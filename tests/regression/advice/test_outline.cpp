@@ -1,4 +1,4 @@
-// What a run says of its scene before it begins: what a slip of units changes, and how many pieces there are.
+// The lines of a run about its scene before it begins: they reveal wrong units, and count the pieces.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -87,7 +87,7 @@ TEST(Improbable, YieldStressIsComparedWithTheModulus) {
   }
 }
 
-// Of copper that melts at 1356 K and softens from 293 K on.
+// Copper melts at 1356 K and softens from 293 K on.
 TEST(Improbable, InitialTemperaturesOfAMeltOrInCelsiusAreWarnedOf) {
   const std::string softening = section("Softening", key("Type", "Johnson-Cook") + key("Reference Temperature", "293") +
                                                          key("Melting Temperature", "1356") + key("Exponent", "1"));
@@ -197,7 +197,7 @@ TEST(WithoutEffect, CracksModelsAndSetsThatChangeNothingAreToldOf) {
   EXPECT_EQ(told_with(disk("3e-3"), "z &lt; 3e-3").find("holds all"), std::string::npos);
 }
 
-// Of 96 elements, each two with one number: on any number of ranks.
+// Each number stands at two of 96 elements: found on any number of ranks.
 TEST(DoubledNumbers, AreToldOf) {
   const RunFolder folder;
   const deck::Deck deck = deck::read(folder.write("deck.xml", flying().text()), folder.world);
@@ -387,7 +387,7 @@ TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
                        " % too stiff in tension by the material model 'Elastic'"});
 }
 
-// What rank 0 says.
+// The output of rank 0.
 std::string told_by_run(const std::string& conditions) {
   const RunFolder folder;
   Parts parts;

@@ -22,7 +22,7 @@ Parts pile(const RunFolder& folder, const std::string& conditions) {
   return parts;
 }
 
-// What is told of bodies, after "WARNING: " and before the common rest.
+// The part of the warning about bodies, after "WARNING: " and before the common rest.
 std::string told(const RunFolder& folder, const Parts& parts, const std::string& solver = "QuasiStatic") {
   const deck::Deck deck = deck::read(folder.write("deck.xml", changed(parts.text(), "Verlet", solver)), folder.world);
   std::istringstream all(told_at_the_start(deck, folder.world).warnings);

@@ -453,7 +453,7 @@ class Test:
         self.same(whole, folder, scene)
 
     def refused(self, scene, whole):
-        """What cannot be gone on with says why, and stays as it is."""
+        """A checkpoint that cannot be continued stays unchanged, and a message gives the reason."""
         folder = self.folder(f"{scene}-refused", scene)
         deck, kept = folder / "deck.xml", folder / "deck.restart"
         good = Path(whole, "deck.restart").read_bytes()

@@ -146,7 +146,7 @@ TEST(Condition, NoStepIsTiny) {
   }
 }
 
-// Of points that are not at the end of a body there is no mirror image: they are held, and a warning says so.
+// Points that are not at the end of a body have no mirror image: they are held, and a warning says so.
 TEST(Condition, SymmetryPlaneWithinABodyKeepsItsPoints) {
   const RunFolder folder;
   Parts parts;
@@ -181,7 +181,7 @@ TEST(Condition, SymmetryPlaneWithinABodyKeepsItsPoints) {
             1e-6);
 }
 
-// A pulse, smooth and some forty spacings long, runs up a column in uniaxial strain. What is left in it when the pulse
+// A pulse, smooth and some forty spacings long, runs up a column in uniaxial strain. The energy in it when the pulse
 // would be on its way back is the square of the part that the end reflects. Between points of a lattice the speed of a
 // wave of this length is 1 % below that of the continuum; the end is matched to the latter: half a percent is
 // reflected.
@@ -278,7 +278,7 @@ TEST(Condition, NonReflectingEndsThatMeetLetEnergyFallOnly) {
     for (const int count : counts) expect_energy_to_fall(material, {all.begin(), all.begin() + count});
   };
   expect(copper(), {0, 1, 2, 3, 5});
-  // Of so many points those at the corner would take substeps, in which the work of dampers is 5 % of the energy too
+  // With more points those at the corner would take substeps, in which the work of dampers is 5 % of the energy too
   // much.
   expect_energy_to_fall(copper(), {"left", "front", "below"}, 12);
   expect(ordinary, {2, 5});
@@ -341,7 +341,7 @@ TEST(Condition, InitialVelocityIsAFunctionOfThePlace) {
   EXPECT_EQ(start.balance_error, 0);
 }
 
-// What a wall does to a body, step by step.
+// The action of a wall on a body, step by step.
 class Wall {
  public:
   // `offset`: of the wall along its normal, m.

@@ -1,5 +1,5 @@
-// Conditions that say two things of a point, or throw it somewhere: refused or told when the deck is set up, by
-// explicit steps and in equilibria alike. What agrees acts together.
+// Conditions that contradict each other at a point, or throw it somewhere: refused, or a warning, when the deck is set
+// up, by explicit steps and in equilibria alike. Conditions that agree act together.
 #include <gtest/gtest.h>
 
 #include "regression/bodies.hpp"
@@ -102,7 +102,7 @@ TEST(Contradiction, IsNotInWhatAgrees) {
       EXPECT_EQ(said_of(block(conditions), loading).error, "") << conditions;
     }
   }
-  // What is prescribed at the start and what is prescribed then do not contradict each other.
+  // Initial and prescribed values do not contradict each other.
   EXPECT_EQ(
       said_of(block(along("a", "Initial Velocity", "all", "z", "-20") + displacement("b", "foot", "z", "0"))).error,
       "");

@@ -295,8 +295,8 @@ TEST(PeriodicSides, BreakTheBondsThatTheyStretch) {
   EXPECT_EQ(table.at("Max_Damage(middle)").back(), 0);
 }
 
-// What a break releases follows from where the images were at the start of its step, also in the first one after a
-// checkpoint: the same bits.
+// The energy of a break follows from the positions of the images at the start of its step, also in the first one after
+// a checkpoint: the same bits.
 TEST(PeriodicSides, ThatMoveBreakBondsAfterACheckpointAsWithoutOne) {
   Parts parts;
   parts.materials = metal("Elastic", "");

@@ -24,7 +24,7 @@ Table history_of(Parts parts, const std::vector<std::string>& variables, const L
   return read_history(folder / "history.csv");
 }
 
-// Of means over the times between the rows.
+// The impulse of means over the times between the rows.
 double impulse(const std::vector<double>& force, const std::vector<double>& time, std::size_t until) {
   double sum = 0;
   for (std::size_t n = 1; n <= until; ++n) sum += force[n] * (time[n] - time[n - 1]);

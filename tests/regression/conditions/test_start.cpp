@@ -11,7 +11,7 @@ const std::string flight = along("flight", "Initial Velocity", "all", "z", "-40"
 const std::string wall = plane("wall", "Rigid Plane", "all", "0 0 0", "0 0 1");
 const std::string load = along("weight", "Body Force", "all", "xz", "-1e10");
 
-// What a frame shows.
+// The velocity that a frame shows.
 Vector velocity(const Body& body, int i) { return 0.5 * (body.previous_velocity[i] + body.velocity[i]); }
 
 struct Case {

@@ -37,7 +37,7 @@ struct Bar {
     }
     return mesh;
   }
-  // Of the points of the quarter in the order of its file, their places in the file of the whole.
+  // The places of the quarter's points, in the order of its file, in the file of the whole.
   std::vector<std::size_t> quarter(bool at_nodes) const {
     const int more = at_nodes ? 1 : 0;
     std::vector<std::size_t> places;
@@ -157,8 +157,8 @@ class Quarter : public testing::TestWithParam<Case> {
   }
 };
 
-// What is left is round-off: sums over families have another order, and a place of 5 mm, rounded to 1e-18 m in each of
-// 60 steps, beside displacements of 0.1 mm; in flow such differences grow some hundredfold.
+// Only round-off may remain: sums over families have another order, and a position of 5 mm is rounded to 1e-18 m in
+// each of 60 steps, beside displacements of 0.1 mm; in flow such differences grow some hundredfold.
 constexpr double round_off = 1e-10;
 
 TEST_P(Quarter, IsTheWhole) { EXPECT_LT(difference(parts(), thrown(), Tensor::Identity()), round_off); }
@@ -239,7 +239,7 @@ TEST(Symmetry, IsThatOfEquilibria) {
   EXPECT_LT(difference(parts, pressed, Tensor::Identity(), "QuasiStatic"), 1e-7);
 }
 
-// What is no end of a body has no mirror image; who may have meant one is told.
+// Points that are no end of a body have no mirror image; a warning tells users who may have meant one.
 TEST(Symmetry, IsToldWhereThereIsNone) {
   const auto warnings = [](const std::string& sets, const std::string& plane_of_deck, const std::string& more = "") {
     const RunFolder folder;

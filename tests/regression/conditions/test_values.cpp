@@ -29,7 +29,7 @@ const std::vector<Case> cases{
     {foot + pushed(key("Travel Z", "1e-3*(" + ends + " - sqrt(3e-6))")), "tool > Travel Z"},
 };
 
-// What ends the run, on every rank.
+// The error that ends the run, on every rank.
 std::string error_of(const std::string& conditions, bool slowly, const std::string& frequency) {
   const RunFolder folder;
   Parts parts;

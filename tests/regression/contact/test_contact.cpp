@@ -340,7 +340,7 @@ TEST(Contact, BodiesApartAreNotSearched) {
   EXPECT_EQ(run.solver.contact().searches(), 2) << "one for each interaction, at the start";
 }
 
-// Of the warnings, the lines about bodies that meet.
+// The lines of the warnings about bodies that meet.
 std::string about_meeting(const std::string& warnings) {
   std::istringstream lines(warnings);
   std::string found;

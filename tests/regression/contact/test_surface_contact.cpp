@@ -36,7 +36,7 @@ Parts on_held_plate(const RunFolder& folder, const std::string& points, const st
   return parts;
 }
 
-// Of the second body, over all ranks: mass times velocity, at the time of the last look; the middle.
+// The second body, over all ranks: mass times velocity at the time of the last check, and its middle.
 struct Motion {
   Vector momentum = Vector::Zero(), middle = Vector::Zero();
   double mass = 0;

@@ -94,8 +94,8 @@ const std::vector<std::string> names{"Correspondence", "Stiff", "Ordinary"};
 INSTANTIATE_TEST_SUITE_P(Third, Undisturbed, testing::Values(correspondence, stiff, ordinary),
                          [](const auto& info) { return names[info.index]; });
 
-// Of a cube that flies half a spacing before it meets a plane no bond breaks, whose energy is a tenth of what that
-// takes: a rank that took the others' points for where they had been before the flight would break all bonds to them.
+// A cube flies half a spacing before it meets a plane. No bond breaks, because its energy is a tenth of the necessary
+// one; a rank that took the points of other ranks at their positions before the flight would break all bonds to them.
 TEST(Undisturbed, ABodyIsWholeWhenItIsFirstStrained) {
   const RunFolder folder;
   folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 4, h));

@@ -27,7 +27,7 @@ except ImportError as error:
 STRUT, MESH = sys.argv[1:3]
 RECIPE = "shape = box\nsize = 4e-3 4e-3 6e-3\nspacing = 1e-3\n"
 
-# What pvbatch is told: the places it draws at the last time, as text.
+# A script for pvbatch: prints the positions that it draws at the last time.
 ASK_PARAVIEW = """
 import sys
 from paraview.simple import OpenDataFile, servermanager, MergeBlocks, PythonCalculator
@@ -134,7 +134,7 @@ class ParaView(unittest.TestCase):
                                        rtol=1e-6)
 
     def eighth(self, name, components):
-        """Of the eighth element at the last time, as the file has it."""
+        """The value of the eighth element at the last time, as in the file."""
         names = [row.tobytes().split(b"\0")[0].decode() for row in self.file["name_elem_var"][:]]
         return [self.file[f"vals_elem_var{names.index(name + c) + 1}eb1"][-1][7] for c in components.split()]
 

@@ -136,7 +136,7 @@ for signal in TERM INT USR1 USR2 HUP XCPU; do
   [ -e deck.restart.lock ] && fail "one process, SIG$signal: the lock stays"
 done
 
-# What nohup starts goes on when its terminal is gone.
+# A run that nohup started goes on when its terminal is gone.
 rm -f history.csv
 nohup "$strut" deck.xml > log 2>&1 &
 echo $! > pid

@@ -11,7 +11,7 @@
 namespace strut::regression {
 namespace {
 
-// What it prints, on rank 0.
+// The output of --check on rank 0.
 std::string checked(const RunFolder& folder, const Parts& parts) {
   const auto deck = folder.write("deck.xml", parts.text());
   testing::internal::CaptureStdout();
@@ -37,8 +37,8 @@ double seconds_of(const std::string& duration) {
   return sum;
 }
 
-// What it tells of a run of `steps` steps, each of which is told to take `least` to `most` s: so many times as long, at
-// most twice, to the rounding of as_duration.
+// The forecast of a run of `steps` steps, each of which is predicted to take `least` to `most` s: the product, at most
+// twice of it, to the rounding of as_duration.
 void expect_estimate(const std::string& told, double steps, double least, double most) {
   std::smatch found;
   ASSERT_TRUE(std::regex_search(told, found, std::regex("estimated time (.+) to (.+?)( \\(|\n)"))) << told;
@@ -59,8 +59,8 @@ double seconds_of_run(const RunFolder& folder, const std::string& deck) {
 
 constexpr double longer = 1000;  // than a run that is made is one that is told of: seconds hide nothing of it
 
-// A run takes as long as was told, roughly: a machine may be busy, but not ten times as busy a moment later. What is
-// forgotten (the number of steps, a unit) is larger. `seconds`: of a run of so many times fewer of the same steps.
+// A run takes about the predicted time: a machine may be busy, but not ten times as busy a moment later. A forgotten
+// factor (the number of steps, a unit) is larger. `seconds`: of a run of so many times fewer of the same steps.
 void expect_told_time(const std::string& told, double seconds) {
   std::smatch found;
   ASSERT_TRUE(std::regex_search(told, found, std::regex("estimated time (.+) to (.+?)( \\(|\n)"))) << told;
@@ -124,7 +124,7 @@ TEST(Check, TellsTheTimeOfEquilibria) {
   EXPECT_EQ(numbers_in(told, "40000 load steps; the first one took ([0-9.]+) s and ([0-9]+) iterations").size(), 2u);
 }
 
-// What rank 0 has taken is told, and the size of a frame, by which the result file grows.
+// --check prints the memory of rank 0 and the size of a frame, by which the result file grows.
 TEST(Check, TellsMemoryAndTheSizeOfAFrame) {
   const RunFolder folder({.nx = 4, .ny = 4, .nz = 8});
   const auto size_with = [&](const std::string& final_time) {

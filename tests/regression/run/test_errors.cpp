@@ -47,7 +47,7 @@ class Mistake : public testing::Test {
     return folder.write("deck.xml", text);
   }
 
-  // What this rank throws; nothing where it does not throw.
+  // The error that this rank throws, if any.
   std::optional<std::string> outcome(const std::string& text, Start start = Start::anew) const {
     const fs::path deck = write_deck(text);
     testing::internal::CaptureStdout();
@@ -191,7 +191,7 @@ TEST_F(Mistake, PointsGivenTwice) {
   }
 }
 
-// Of nodes at one place, those of one body are found, between which bonds would be; the faces of two bodies may touch.
+// Coincident nodes of one body, between which bonds would be, are found; the faces of two bodies may touch.
 TEST_F(Mistake, BodiesThatTouchMayHaveNodesAtOnePlace) {
   Lattice lattice;
   io::Mesh mesh = lattice.mesh();
@@ -225,7 +225,7 @@ TEST_F(Mistake, PlacesAndVolumesThatNumbersDoNotTellApart) {
   }
 }
 
-// What the files cannot hold is found before the results of an earlier run are replaced.
+// Names and numbers that the files cannot hold are found before the results of an earlier run are replaced.
 TEST_F(Mistake, NamesAndNumbersThatFilesDoNotHold) {
   Parts parts = right_parts();
   EXPECT_EQ(outcome(parts.text()).value_or("no error"), "no error");
@@ -246,7 +246,7 @@ TEST_F(Mistake, NamesAndNumbersThatFilesDoNotHold) {
   EXPECT_EQ(io::result_problem(cloud, world), "");
 }
 
-// What a run would end with is what --check finds.
+// --check finds the errors that would end a run.
 TEST_F(Mistake, CheckFindsWhatARunWouldFind) {
   folder.write("foreign.restart", "my thesis");
   Parts parts = right_parts();
@@ -530,7 +530,7 @@ TEST_F(Mistake, MeansAndContactForcesOfTheHistory) {
   expect_error(with("Contact_Forc_Z(bar:plate)"), {"(did you mean 'Contact_Force_Z'?)"});
 }
 
-// What a run has written is lost only to a run that begins.
+// Results of a run are replaced only by a run that begins.
 TEST_F(Mistake, LeavesEarlierResultsAlone) {
   const std::string deck = right_parts().text();
   EXPECT_FALSE(outcome(deck).has_value());

@@ -11,7 +11,7 @@
 namespace strut::regression {
 namespace {
 
-// Stands for std::cout, and raises a signal when the run tells a text for the first time. Of progress it tells first
+// Replaces std::cout, and raises a signal when the run prints a text for the first time. The first progress is printed
 // between the two halves of its first step.
 class SignalAt : public std::streambuf {
  public:
@@ -43,7 +43,7 @@ class SignalAt : public std::streambuf {
   bool raised_ = false;
 };
 
-// What a run of so many equal steps returns when it is signalled.
+// True if a run of so many equal steps stops because it is signalled.
 bool signalled_run(const RunFolder& folder, const std::string& final_time,
                    const char* at = "left: ", int with = SIGTERM) {
   Parts parts;

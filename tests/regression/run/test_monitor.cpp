@@ -106,8 +106,8 @@ TEST(Monitor, KnowsTheLargestEnergyWhereNothingIsWritten) {
   EXPECT_NEAR(error_at_end("") / error_at_end(key("Frequency", "1") + section("Variables", "")), 1, 0.1);
 }
 
-// What a monitor tells of these balances, `error` being a part of the largest energy, one after the other; whether it
-// ends the run; after the lines of a start that do not count.
+// The messages of a monitor about these balances, one after the other, `error` being a fraction of the largest energy;
+// whether it ends the run; after the uncounted lines of a start.
 struct Told {
   std::vector<std::string> lines;
   bool ended = false;

@@ -51,7 +51,7 @@ TEST(TwoSolvers, ToolsGoOnPressing) {
   }
 }
 
-// What conditions have done in equilibria is part of what they have done: together it is what the body holds.
+// The work of conditions includes that in equilibria: together it is the energy of the body.
 TEST(TwoSolvers, WorkGoesOn) {
   Parts parts;
   parts.conditions = along("low", "Prescribed Displacement", "foot", "xyz", "0") +

@@ -1,4 +1,4 @@
-// What a deck's sections make of a block: its material.
+// The material that a deck's sections give a block.
 #include <gtest/gtest.h>
 
 #include "regression/bodies.hpp"

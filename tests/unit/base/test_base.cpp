@@ -197,7 +197,7 @@ TEST(Function, GivesWhatTheSharedTableSays) {
   EXPECT_GT(lines, 60);
 }
 
-// What a deck could do to the machine it runs on: nothing, and it could not keep it busy.
+// A deck can do nothing to the machine it runs on, nor keep it busy.
 TEST(Function, OnlyComputesAndEnds) {
   for (const char* text : {"while (1) { value = 1; }", "for (int i = 0; i < 1; i = i) { value = 1; }", "rand()",
                            "readline(x, y)", "printf(x)", "double a[1000000000]; value = 1;"}) {

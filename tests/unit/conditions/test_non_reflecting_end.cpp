@@ -1,4 +1,4 @@
-// What ends that meet leave of a cell.
+// The part of a cell within ends that meet.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -113,7 +113,7 @@ TEST(Tool, NormalAndCurvatureAreDerivatives) {
   }
 }
 
-// What the explicit solver relies on: the gap after a move is at least what the tangent plane promises.
+// The explicit solver relies on this: the gap after a move is at least that by the tangent plane.
 TEST(Tool, TangentPlanesAreNeverTooGenerous) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> number(-2, 4);

@@ -58,7 +58,7 @@ TEST(HertzLaw, PressureOfAFaceIsThatOfAnySpacing) {
   }
 }
 
-// What the concept asks for, of every law in the variant.
+// The requirements of the concept, for every law in the variant.
 template <class L>
 struct EveryLaw : ::testing::Test {};
 

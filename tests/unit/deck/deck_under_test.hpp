@@ -133,7 +133,7 @@ inline const std::string full_deck = R"xml(<?xml version="1.0"?>
 </ParameterList>
 )xml";
 
-// What full_deck says of the shape of its wall, to be replaced by another tool's.
+// The shape of the wall in full_deck, to be replaced by another tool's.
 inline const std::string wall_shape = R"x("Rigid Plane"/>
       <Parameter name="Point" type="string" value="0 0 -1e-3"/>
       <Parameter name="Normal" type="Array(int)" value="{0, 0, 2}"/>)x";
@@ -190,7 +190,7 @@ class DeckFolder {
     return deck::read(folder_ / "deck.xml", world_);
   }
 
-  // What the error says, without the deck's path; "" if there is none.
+  // The text of the error, without the deck's path; "" if there is none.
   std::string error(const std::string& text) const {
     try {
       read(text);

@@ -289,7 +289,8 @@ TEST(DeckOfPeridigm, WhatIsMissingIsNamedOnce) {
   }
 }
 
-// What else a deck says about fluxes, flaws, friction in time and horizons in space makes no problems of its own.
+// Keys that depend on missing features (fluxes, flaws, friction in time, horizons in space) are no problems of their
+// own.
 TEST(DeckOfPeridigm, WhatHangsOnSomethingMissingIsNoProblemOfItsOwn) {
   const DeckFolder folder;
   std::string text = changed(small_deck, R"("Elastic Plastic Correspondence")", R"("Diffusion")");

@@ -72,7 +72,7 @@ struct Writer {
 
 TEST(DeckSections, ReadOnlyTheKeysTheyDeclare) {
   const DeckFolder folder;
-  // Of five laws the third has six forms of Hardening.
+  // The third of five laws has six forms of Hardening.
   for (std::size_t number = 0; number < 30; ++number) {
     for (const bool all_keys : {true, false}) {
       const std::string text = Writer{number, all_keys}.list(schema());

@@ -1,4 +1,4 @@
-// What tests of damaged and foreign files look at: the bytes of a file, the error of an action.
+// Helpers for tests of damaged and foreign files: the bytes of a file, the error of an action.
 #pragma once
 
 #include <filesystem>

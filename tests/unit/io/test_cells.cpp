@@ -122,7 +122,7 @@ class Cells : public ::testing::Test {
     return "no error";
   }
 
-  // Of all ranks, by id.
+  // The cells of all ranks, by id.
   std::map<std::int64_t, CellShape> shapes(const PointCloud& cloud) const {
     std::vector<ShapeNumbers> mine;
     for (const CellShape& shape : cloud.shapes) mine.push_back(numbers_of(shape));

@@ -1,4 +1,4 @@
-// What goes into a mesh, a text, a result or a history comes out again, on any number of ranks.
+// A mesh, a text, a result or a history is read as it was written, on any number of ranks.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -219,7 +219,7 @@ TEST_F(BrokenFile, AnElementGivenTwiceDoesNotDoubleTheVolumesOfItsNodes) {
   }
 }
 
-// Of small elements, too: not "-0.000000".
+// Volumes of small elements are printed with their digits, too: not "-0.000000".
 TEST_F(BrokenFile, VolumesAreToldWithTheirDigits) {
   Mesh mesh = row_of_cubes(1);
   for (Vector& x : mesh.nodes) x *= 1e-4;

@@ -37,7 +37,7 @@ class NodePoints : public ::testing::Test {
     return read_exodus(folder / "mesh.g", world, at);
   }
 
-  // Of all ranks, by id.
+  // Values of all ranks, by id.
   template <class T>
   std::map<std::int64_t, T> by_id(const PointCloud& cloud, const std::vector<T>& values) const {
     std::vector<std::int64_t> ids = gather(world, std::span<const std::int64_t>(cloud.ids));

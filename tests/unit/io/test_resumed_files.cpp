@@ -101,8 +101,8 @@ TEST_F(Resumed, AHistoryOfAnotherRunIsNotGoneOnWith) {
 }
 
 // 600 million nodes are more than a variable of the format with 64-bit offsets can have in a frame (2³² − 4 bytes).
-// What is not written takes no room on the disk; but the library moves it with every definition that follows, so the
-// frames are those of a small file of the same format.
+// Unwritten parts of a file take no space on the disk; but the library moves them with every definition that follows,
+// so the frames are those of a small file of the same format.
 TEST_F(Resumed, AFrameMayBeLargerThanFourGigabytes) {
   run_on_root(world, [&] {
     constexpr std::int64_t many = 600'000'000, few = 5;

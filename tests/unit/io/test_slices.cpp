@@ -20,7 +20,7 @@
 
 namespace {
 
-// What C++ has taken from the heap, and the most so far; what this rank has received from others.
+// Bytes that C++ has allocated on the heap, and their maximum; bytes that this rank has received from others.
 std::atomic<std::int64_t> taken = 0, most_taken = 0;
 std::int64_t received = 0;
 

@@ -276,7 +276,7 @@ class Runs(InFolder):
         found = self.made("block.xml")
         self.assertAlmostEqual(found["mean_stress_other_end"] / found["plateau_stress"], 0.97, 8)
         self.assertAlmostEqual(found["ends_apart"], 0.03 / 0.985, 8)  # nine digits in the file
-        # Of an impact the far end bears two thirds.
+        # In an impact the far end bears two thirds of the force.
         self.history({**columns, "Reaction_Z(bottom)": 2 / 3 * force})
         done = self.curve("block.xml")
         found = {row[0]: row[1] for row in self.table("block-measures.csv")[1:]}

@@ -64,8 +64,8 @@ TEST(Skeleton, TheSizeOfCellsDoesNotDependOnTheIrregularity) {
       Vector::Constant(9.5 * cell * std::cbrt(pi / 3));  // lattice constants: 9 or 10 seeds along a side
   const double expected = size.prod() / (pi / 6 * std::pow(cell, 3));
   for (const double irregularity : {0.0, 0.5, 1.0}) {
-    // On the lattice there are 9³ + 10³ seeds for 2 · 9.5³ cells. Of those within half a lattice constant of the walls
-    // a few leave and others enter: the square root of their number, three times.
+    // On the lattice there are 9³ + 10³ seeds for 2 · 9.5³ cells. A few of those within half a lattice constant of the
+    // walls leave and others enter: the square root of their number, three times.
     const double uncertain = 9 * 9 * 9 + 10 * 10 * 10 - expected + 3 * std::sqrt(6 * expected * 0.5 / 9.5);
     EXPECT_NEAR(static_cast<double>(foam_skeleton(size, {cell, irregularity, 3}).cells), expected, uncertain);
   }

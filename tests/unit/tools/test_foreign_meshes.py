@@ -54,7 +54,7 @@ class Meshes(InFolder):
         (self.folder / "bar.inp").write_text("\n".join(lines) + "\n")
 
     def volumes(self, file, block):
-        """Of the bricks of a block: the triple product of their edges, m³."""
+        """Volumes of the bricks of a block: the triple product of their edges, m³."""
         with netCDF4.Dataset(self.folder / file) as data:
             axes = [data["coord" + a][:] for a in "xyz"] if "coordx" in data.variables else data["coord"][:]
             places, corners = np.stack(list(axes), -1), data[f"connect{block}"][:] - 1

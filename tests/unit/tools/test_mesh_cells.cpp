@@ -323,7 +323,7 @@ TEST(MeshCells, AThinWireStaysOne) {
 
 // ---- Cells whose neighbors hardly span space -----------------------------------------------------------------------
 
-// What a run asks for: four neighbors, and a mean square distance of 0.02 spacings² in each direction.
+// The requirement of a run: four neighbors, and a mean square distance of 0.02 spacings² in each direction.
 bool spans_space(const Cells& cells, const std::vector<int>& near, int cell) {
   Tensor sum = Tensor::Zero();
   double volume = 0;
@@ -336,7 +336,7 @@ bool spans_space(const Cells& cells, const std::vector<int>& near, int cell) {
   return Eigen::SelfAdjointEigenSolver<Tensor>(sum / volume, Eigen::EigenvaluesOnly).eigenvalues()[0] >= 0.02;
 }
 
-// Of the volume, by the mesh that a run reads.
+// The flat fraction of the volume, by the mesh that a run reads.
 double part_that_is_flat(const Cells& cells) {
   std::vector<std::vector<int>> near(cells.parts.size());
   for (const auto& [a, b] : touching(cell_mesh(cells))) {
@@ -359,7 +359,7 @@ TEST(MeshCells, OfAFoamHaveNeighborsThatSpanSpace) {
   EXPECT_LT(part_that_is_flat(cells), 0.0025);
   expect_same(moments_of(cells), moments_of(body));
   EXPECT_EQ(bodies_in(cell_mesh(cells)), 1u);
-  // What is left is told, with that which has too few neighbors where a run has left it out.
+  // The report counts the flat cells that are left, and cells with too few neighbors, which a run leaves out.
   EXPECT_GE(cells.flat_volume / cells.volume(), part_that_is_flat(cells) * (1 - 1e-9));
   EXPECT_LT(cells.flat_volume / cells.volume(), 0.0025);
 }

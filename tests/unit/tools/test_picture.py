@@ -64,7 +64,7 @@ def write_result(path, blocks, displacement, elemental, times=(0, 1e-3), names="
 
 
 def hue(color):
-    """What light, which only multiplies, leaves as it is."""
+    """The part of a color that light, which only multiplies, does not change."""
     color = np.asarray(color, float)[:3]
     return color / np.linalg.norm(color)
 
@@ -306,7 +306,7 @@ class RigidTools(InFolder):
         def seen(column, x, z):
             right, down = (int(p) for p in scene.camera.position([x * H, 0, z * H]))
             return images[0, column][down, right]
-        # Of the punch, from 6.5 H on before and from 6 H on after, the picture shows what is below 6.9 H.
+        # The picture shows the part of the punch below 6.9 H: from 6.5 H on before, from 6 H on after.
         for column, z, there in ((0, 6.25, False), (1, 6.25, True), (0, 6.7, True), (1, 6.7, True)):
             found = seen(column, 3, z)
             self.assertEqual(found[3] > 0.1, there, (column, z))

@@ -55,7 +55,7 @@ class Samples(InFolder):
             (self.folder / "laminate.recipe").write_text(f"shape = box\nspacing = {h}\nsize = {8 * h} {8 * h} 2e-3\n"
                                                          "[body]\nname = a\n[body]\nname = b\norigin = 0 0 2e-3\n")
             (self.folder / "laminate.g").unlink(missing_ok=True)
-            # What a layer is as wide as does not matter: sideways it strains evenly, and all points are held there.
+            # The width of a layer does not matter: sideways it strains evenly, and all points are held there.
             found.append(self.tensors_of("laminate", "--layers", 4, 4, 1, "--boundaries", "mixed")["mixed"])
         expected = backus([tensors.isotropic(*law) for law in stuff.values()])
         errors = [np.abs(C / 1e9 - expected / 1e9).max() for C in found]
@@ -166,7 +166,7 @@ class Tensors(unittest.TestCase):
         directions = np.array([(1, 0, 0), (2**-0.5, 2**-0.5, 0), (3**-0.5,) * 3])
         np.testing.assert_allclose(tensors.young(C, directions), [66.7, 130.3, 191.1], rtol=2e-3)  # printed digits
         self.assertAlmostEqual(tensors.zener(C), 3.21, 2)
-        # Of a cubic body A^U = 6/5 (√A − 1/√A)² (Ranganathan & Ostoja-Starzewski 2008).
+        # A cubic body has A^U = 6/5 (√A − 1/√A)² (Ranganathan & Ostoja-Starzewski 2008).
         A = tensors.zener(C)
         self.assertAlmostEqual(tensors.anisotropy(C), 1.2 * (A**0.5 - A**-0.5)**2, 10)
 

@@ -54,7 +54,7 @@ class ToolTest(unittest.TestCase):
                               timeout=120)
 
     def works(self, tool, source, *words):
-        """What it prints by first words, and the mesh it writes."""
+        """Its output by first words, and the mesh it writes."""
         done = self.run_tool(tool, source, self.path("out.g"), *words)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stderr, "")
@@ -383,7 +383,7 @@ class Cells(ToolTest):
             self.assertLess(abs(cells[:, 0].sum() / (true * 32**3 * 1e-9) - 1), 0.05, blur)
         said, _, cells = self.cells(image, "--cells", 2, "--grey", "--smallest-cell", 0, "--density", 0.1)
         self.assertLess(abs(cells[:, 0].sum() / (0.1 * 32**3 * 1e-9) - 1), 1e-3, said["grey"])
-        # Of the threshold alone: whole voxels.
+        # With the threshold alone: whole voxels.
         said, mesh = self.voxels(image, "--density", 0.1)
         self.assertLess(abs(len(mesh.blocks["foam"]) / (0.1 * 32**3) - 1), 1e-3, said["density"])
         said, mesh = self.voxels((8000 - image).astype("i2"), "--density", 0.1, "--invert", "--spurs", "drop")
@@ -403,8 +403,8 @@ class Cells(ToolTest):
         self.assertGreater(os.path.getsize(self.path("slices.png")), 20000)
         _, mesh = self.voxels(image, *words, "--refine", 2)
         self.assertEqual({name: len(elements) for name, elements in mesh.blocks.items()}, {"foam": 8 * 96, "skin": 8 * 144})
-        # Of 2 x 2 x 2 the material of most, where half is solid: along z and y the first and the last cell are half filled,
-        # and those at the edges a quarter: 4 + 2 + 2 of the 3 x 4 are left.
+        # A coarse voxel of 2 x 2 x 2 has the material of most, where half of it is solid: along z and y the first and
+        # the last cell are half filled, and those at the edges a quarter: 4 + 2 + 2 of the 3 x 4 are left.
         _, mesh = self.voxels(image, *words, "--coarsen", 2)
         self.assertEqual({name: len(elements) for name, elements in mesh.blocks.items()}, {"foam": 2 * 8, "skin": 3 * 8})
 

@@ -1,4 +1,4 @@
-"""What tests of the tools that draw share: their packages, or the exit status that says they are missing; the places of the
+"""Shared by tests of the tools that draw: their packages, or the exit status that says they are missing; the places of the
 tools; a folder for each test."""
 import pathlib
 import subprocess

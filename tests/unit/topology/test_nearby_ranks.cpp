@@ -22,7 +22,7 @@ std::vector<Box> boxes_of_ranks() {
   return boxes;
 }
 
-// Of the rank in the middle, row by row as in a lattice, or in no order at all.
+// Positions of the rank in the middle, row by row as in a lattice, or in no order at all.
 std::vector<Vector> places_of_rank(bool in_order) {
   constexpr int rows = 16;
   std::vector<Vector> places;

@@ -11,7 +11,7 @@ namespace {
 
 double value(int i) { return std::sin(12.9898 * i) * 43758.5453; }
 
-// Of ranges that are and are not worth while to share, from any first index.
+// Tests ranges that are and are not long enough to be shared by threads, from any first index.
 template <class Test>
 void over_ranges(const Test& test) {
   for (const int begin : {0, 7}) {

@@ -59,7 +59,8 @@ class Impact {
   }
   double bound() const { return contact_.stiffness(); }
   double energy() const { return world_.sum(contact_.energy()); }
-  // Of the step that is done: at the time of the forces before it, by the mean of the velocities around them.
+  // The kinetic energy of the finished step: at the time of the forces before it, by the mean of the velocities around
+  // them.
   double kinetic_energy() const {
     return sum([&](int i) { return 0.125 * density * h * h * h * (before_[i] + velocities_[i]).squaredNorm(); });
   }
@@ -68,7 +69,7 @@ class Impact {
     for (int c = 0; c < 3; ++c) p[c] = sum([&](int i) { return velocities_[i][c]; });
     return p;
   }
-  // What the stiffness makes of the second point's motion by 1 along the axis, N/m: on the second point.
+  // The stiffness of the contact, N/m: the tangent force on the second point for its motion by 1 along the axis.
   double stiffness() {
     std::vector<Vector> field, result(domain_.owned, Vector::Zero());
     for (int i = 0; i < domain_.owned; ++i)

@@ -1,6 +1,6 @@
-// Where round members touch: bodies of partly filled cells, with volumes, moments and surfaces as a mesh has them,
-// moved towards each other as they are. What they overlap by at the first force, of the smooth surfaces that they stand
-// for, in spacings: late where positive. STRUT_TOUCH_TABLE=n prints a table of n positions each.
+// Position where round members touch: bodies of partly filled cells, with volumes, moments and surfaces as a mesh has
+// them, are moved towards each other undeformed. The overlap of the smooth surfaces at the first force is measured in
+// spacings: late where positive. STRUT_TOUCH_TABLE=n prints a table of n positions each.
 #include <gtest/gtest.h>
 
 #include <algorithm>

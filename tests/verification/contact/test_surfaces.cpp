@@ -65,7 +65,7 @@ Domain domain_of(const std::vector<std::vector<std::pair<Vector, double>>>& bodi
   return make_domain(partitioned(std::move(cloud), world), {{1.75 * h, 0}, {1.75 * h, 1}}, world);
 }
 
-// What two bodies do to each other as they stand.
+// The contact forces of two bodies at their present positions.
 class Scene {
  public:
   Scene(const std::vector<std::vector<std::pair<Vector, double>>>& bodies, PointsAt at = PointsAt::elements,
@@ -140,7 +140,7 @@ class Scene {
     return {world_.max(difference), world_.max(largest)};
   }
 
-  // What the tangent makes of the second body's motion by a unit vector, along it, N/m.
+  // The tangent force along the second body's motion by a unit vector, N/m.
   double stiffness(const Vector& along) {
     std::vector<Vector> field(domain_.owned, Vector::Zero()), result = field;
     for (int i = 0; i < domain_.owned; ++i)
@@ -149,7 +149,7 @@ class Scene {
     return sum([&](int i) { return Vector(field[i].dot(result[i]), 0, 0); })[0];
   }
 
-  // Of the last place, on a body, N, and N m about 0.
+  // Force on a body at the last positions, N, and its moment about 0, N m.
   Vector force(int body) const {
     return sum([&](int i) { return domain_.cloud.blocks[i] == body ? force_on(i) : Vector(Vector::Zero()); });
   }
@@ -248,8 +248,8 @@ TEST(Surfaces, StrutsTouchWhereTheirCellsEnd) {
   }
 }
 
-// K g: with p/(factor M) spacings of overlap under the pressure p. Of large boxes, so that their edges, where the faces
-// feel half, count little: the middle's share of the force is what a box of two more cells has more.
+// K g: with p/(factor M) spacings of overlap under the pressure p. The boxes are large, so that their edges, where the
+// faces feel half, count little: the middle bears the additional force of a box of two more cells.
 TEST(Surfaces, PressureIsThatOfALayer) {
   for (const PointsAt at : kinds) {
     const double overlap = 0.02 * h;
@@ -310,8 +310,8 @@ TEST(Surfaces, FrictionTurnsNothing) {
 }
 
 // A body that turns about a line in the plane where it touches does not slip there, whichever body's points feel: the
-// power of its friction beside that of a body which slides as fast as this one goes half a spacing above. What is left,
-// 0.026 and 0.020 (a slip of 0.08 spacings times the turn, root mean square), is of the rims, where the normal is
+// power of its friction beside that of a body which slides as fast as this one goes half a spacing above. The rest,
+// 0.026 and 0.020 (a slip of 0.08 spacings times the turn, root mean square), is that of the rims, where the normal is
 // askew.
 TEST(Surfaces, WhatRollsDoesNotRub) {
   for (const PointsAt at : kinds) {

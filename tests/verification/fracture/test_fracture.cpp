@@ -43,7 +43,7 @@ const std::vector<Kind> kinds = {
      FamilyKind::stencil},
 };
 
-// What a bond of 1.4 mm holds, roughly, in a lattice of 1 mm and this horizon: ω = 1 and no dilatation.
+// Energy of a bond of 1.4 mm at a stretch, roughly, in a lattice of 1 mm and this horizon: ω = 1 and no dilatation.
 double energy_at(const Kind& kind, double stretch) {
   const double shear = young / (2 * (1 + poisson));
   const double m = 0.8 * std::numbers::pi * std::pow(kind.horizon * 1e-3, 5);  // of a continuum
@@ -209,9 +209,9 @@ TEST(BondEnergy, BreaksOfOthersAreSeen) {
   EXPECT_TRUE(any_later);
 }
 
-// A block of ν = 0.4, 3K − 5G = 9G, that is squeezed, and grows by ε across: θ = (2 − r) ε. Of a bond across w is
-// ½ ω (2/m) |ξ|² G (15 + 9 (2 − r)) ε², some 4 w_c, and what the body would lose with it is ½ ω (2/m) |ξ|² G
-// (15 + 18 (2 − r)) ε²: more than nothing for r < 2 + 15/18.
+// A block of ν = 0.4, 3K − 5G = 9G, that is squeezed, and grows by ε across: θ = (2 − r) ε. A bond across has w = ½ ω
+// (2/m) |ξ|² G (15 + 9 (2 − r)) ε², some 4 w_c, and by its break the body would lose ½ ω (2/m) |ξ|² G (15 + 18 (2 − r))
+// ε²: positive for r < 2 + 15/18.
 TEST(BondEnergy, ABondWhoseBreakWouldGiveEnergyHolds) {
   const Communicator world;
   const auto damage_in_the_middle = [&](double r) {
@@ -430,7 +430,7 @@ TEST(Cracks, CutBondsOnce) {
   half.cells[2] = 5, half.cracks = {};
   EXPECT_EQ(halves, 2 * world.sum(static_cast<std::int64_t>(lattice_body(half, world).domain.families.bonds())));
   EXPECT_EQ(bonds({DiskCrack{Vector(3.5e-3, 3.5e-3, 5e-3), Vector(0, 0, 1), 1}}), halves);
-  // Of the middle point's column the bonds straight down cross a disk of half a spacing; so do oblique ones.
+  // The vertical bonds of the middle point's column cross a disk of half a spacing; so do oblique ones.
   const std::int64_t small = bonds({DiskCrack{Vector(3.5e-3, 3.5e-3, 5e-3), Vector(0, 0, 1), 0.4e-3}});
   EXPECT_LT(small, whole);
   EXPECT_GT(small, halves);
@@ -468,9 +468,9 @@ TEST(Fracture, KeepsTheBalanceWithRandomDamage) {
 
 // ---- What a crack takes that grows slowly --------------------------------------------------------------------------
 
-// A notched strip of 30 × 4 × 20 points whose edges are turned apart, so that what is offered falls along the way: a
-// crack follows slowly. What it has dissipated over s_c² G_c, by its length, which is the damage beside it summed up
-// over what it is behind the tip.
+// A notched strip of 30 × 4 × 20 points whose edges are turned apart, so that the offered energy falls along the path:
+// a crack follows slowly. Its dissipation over s_c² G_c, by its length, which is the sum of the damage beside it over
+// its value behind the tip.
 double taken_by_slow_crack(const Kind& kind) {
   constexpr double h = 1e-3, notch = 9e-3, taper = 30e-3, height = 20e-3, toughness = 10;
   const Communicator world;

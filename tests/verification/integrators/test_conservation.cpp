@@ -1,4 +1,4 @@
-// What must not change: momentum to round-off, energy with the order of the scheme; and the limit of the step.
+// Conserved quantities: momentum to round-off, energy with the order of the scheme; and the limit of the step.
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"
@@ -34,8 +34,8 @@ Conservation run_free_block(const BlockMaterial& material, double speed, StepCon
   return run_free(solver, crossings * crossing_time);
 }
 
-// Central differences at a constant step conserve the energy of a linear body to round-off. What is left: strains of
-// 3e-6 make the body linear to 3e-6; the energy of the stabilization is a difference of two sums 1e9 times as large.
+// Central differences at a constant step conserve the energy of a linear body to round-off. Two errors remain: strains
+// of 3e-6 make the body linear to 3e-6; the energy of the stabilization is a difference of two sums 1e9 times as large.
 TEST(Conservation, ElasticBlockAtConstantStep) {
   const Conservation outcome = run_free_block(copper(false), 0.01, {4e-8, 0}, 200 * 4e-8 / crossing_time);
   EXPECT_LT(outcome.momentum_drift, 1e-12);  // forces are pairs: the round-off of some hundred thousand additions
@@ -104,8 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Cube{"ordinary", {.density = 8930, .law = stiff, .formulation = Formulation::ordinary}, 50}),
     [](const auto& info) { return "Case" + std::to_string(info.index); });
 
-// A last step of any length is no loss: the energies at the end are those of steps as long as usual. What is left: the
-// acceleration changes by ω Δt in a step, and of its square an eighth counts, for noise with ω Δt of one.
+// A last step of any length is no loss: the energies at the end are those of steps as long as usual. One error remains:
+// the acceleration changes by ω Δt in a step, and an eighth of its square counts, for noise with ω Δt of one.
 TEST(Conservation, AShortLastStepCostsNoEnergy) {
   const Communicator world;
   Body body = lattice_body({{7, 7, 7}, 1e-3, 2.015, 0, Influence::one, copper(false)}, world);

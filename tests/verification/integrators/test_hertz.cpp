@@ -66,7 +66,7 @@ Body box_and_sphere(const Indentation& spec, const Communicator& world) {
 // The sphere is down at t = 1/3, then dragged until t = 1: both as expressions of the deck, from 0 to 1.
 const std::string pressed = "(3*t*(t < 1/3) + (t >= 1/3))", dragged = "((t > 1/3)*(t - 1/3)*1.5)";
 
-// What a force on a half-space below z = 0 does to it, along x, y or z, m: downwards at the origin, or along x there
+// Displacement of a half-space below z = 0 by a force, along x, y or z, m: downwards at the origin, or along x there
 // (Johnson 1985, 3.4 and 3.6). `force`: N, an expression.
 const std::string r = "sqrt(x*x + y*y + z*z)", factor = number(1 / (4 * std::numbers::pi * shear)) + "*";
 std::string boussinesq(int component, const std::string& force) {
@@ -89,8 +89,8 @@ std::string cerruti(int component, const std::string& force) {
   return force + "*" + factor + "(1/" + r + " + " + number(1 - 2 * poisson) + "/" + below + " + " + of_plane + ")";
 }
 
-// What pressing does to the surface of the half-space along it, m (Johnson 1985, 4.2): inwards by
-// (1 − 2ν)/(1 − ν) 2a³/(3π R r) (1 − (1 − r²/a²)^(3/2)), the last power 0 where r > a.
+// Displacement of the surface of the half-space along itself under the pressure, m (Johnson 1985, 4.2): inwards by (1 −
+// 2ν)/(1 − ν) 2a³/(3π R r) (1 − (1 − r²/a²)^(3/2)), the last power 0 where r > a.
 std::string drawn_in(const Indentation& spec, int component) {
   const double a = spec.contact_radius * spacing, most = (1 - 2 * poisson) / (1 - poisson) * 2 * std::pow(a, 3) /
                                                          (3 * std::numbers::pi * spec.sphere * spacing);
@@ -166,8 +166,8 @@ TEST(Hertz, DISABLED_ForceWithTenPointsInTheContactRadius) {
   EXPECT_NEAR(of_hertz({.contact_radius = 10, .half_width = 30}), 1, 0.03);
 }
 
-// What sticks is the circle of c/a = (1 − Q/μP)^⅓, of which the way of the sphere tells that it is √(1 − drag). They
-// leave out what pressing does along the surface, which is nothing for equal bodies: the sphere is drawn in as the
+// The sticking circle is c/a = (1 − Q/μP)^⅓; by the displacement of the sphere it is √(1 − drag). Both neglect the
+// displacement along the surface by the pressure, which is zero for equal bodies, since the sphere is drawn in as the
 // half-space is. Measured: 2.7 % less of c/a. 5.8 % more where friction follows the turning of the surface.
 TEST(Mindlin, StickingCircleUnderADrag) {
   const Indentation spec{.friction = 0.3, .drag = 0.6};

@@ -44,9 +44,9 @@ struct Case {
 
 class StiffPart : public testing::TestWithParam<Case> {};
 
-// Noise in every motion that the bar has, undamped. What is kept is an energy that differs from the sum by terms of the
-// order of (ω Δt)², so that the balance of noise swings by some percent; a resonance grows without bound, tenfold in a
-// hundred steps without the points between (time_step_levels.cpp: smooth_levels).
+// Noise in every motion of the bar, undamped. The conserved energy differs from the sum by terms of the order of (ω
+// Δt)², so that the balance of noise swings by some percent; a resonance grows without bound, tenfold in a hundred
+// steps without the points between (time_step_levels.cpp: smooth_levels).
 TEST_P(StiffPart, SwingsOnWithoutGrowth) {
   const Case& c = GetParam();
   const bool by_mean = c.mean > 0;

@@ -1,5 +1,5 @@
 // Equilibria of held bodies against closed forms and refined solutions, and the tangent against differences of the
-// forces. What touches is in test_quasi_static_contact.
+// forces. Contact is in test_quasi_static_contact.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -158,9 +158,9 @@ TEST(QuasiStaticBar, FlowsByItsHardening) {
   EXPECT_GT(end.dissipated, end.elastic);
 }
 
-// The work of the ends is summed by the trapezoidal rule. What does not fall with the step, the energy of a law in
-// rates, drops out of the differences; onset of flow within a step, of second order too, comes at another place of the
-// step.
+// The work of the ends is summed by the trapezoidal rule. The part that does not fall with the step, the energy of a
+// law in rates, drops out of the differences; onset of flow within a step, of second order too, comes at another place
+// of the step.
 TEST(QuasiStaticBar, BalancesItsEnergyToSecondOrderInTheStep) {
   for (const materials::AnyLaw& law : {elastic(young, poisson), elastic_plastic()}) {
     const auto error = [&](int steps) {
@@ -287,8 +287,8 @@ TEST(QuasiStatic, ElasticPathsOfOneAndFiveStepsEndAlike) {
   EXPECT_LT(largest_difference(once.body, often.body), 1e-5 * 0.01 * once.length());
 }
 
-// What is left of the forces may all pull at one end of the bar, and move it by that part of its travel: twice, for
-// both methods, and some times more where a softer shape of the bar, its bending, is in it. Measured: 2 of the 10.
+// The remaining forces may all pull at one end of the bar, and move it by that part of its travel: twice, for both
+// methods, and some times more where a softer shape of the bar, its bending, is in it. Measured: 2 of the 10.
 TEST(Relaxation, FindsTheEquilibriumOfNewton) {
   const Tolerance tolerance{.relative = 1e-7};
   for (const materials::AnyLaw& law : {elastic(young, poisson), elastic_plastic()}) {

@@ -45,7 +45,7 @@ double error_of_stiffness(const RigidTool& tool, const Vector& pressed, const Ve
     places[i] += moved;
     direction[i] = Vector(std::sin(1.0 + places[i][1] / spacing), std::cos(places[i][0] / spacing), 0.5);
   }
-  // Of second order: the curvature of a turn by 1e-5 leaves its square, round-off of places 1e-16 over 1e-8.
+  // Errors of second order: the curvature of a turn by 1e-5 leaves its square, round-off of positions 1e-16 over 1e-8.
   const double h = 1e-5 * spacing;
   const auto shifted = [&](double by) {
     Field there = places;
@@ -284,18 +284,17 @@ TEST(QuasiStaticContact, CarriesOneBlockOnAnother) {
   const double spring = 16 * contact::penalty_stiffness(penalty, horizon * spacing) * std::pow(spacing, 6);
   const double block = young * 16 * spacing * spacing / (4 * spacing);
   EXPECT_NEAR(force, 0.05 * spacing / (2 / block + 1 / spring), 0.2 * force);
-  // What the springs store is least where all carry alike (Cauchy & Schwarz); those of the edges carry some tenths more
-  // or less, and the square of that comes to it.
+  // The energy of the springs is least where all carry alike (Cauchy & Schwarz); those of the edges carry some tenths
+  // more or less, and the square of that comes to it.
   const double least = 0.5 * force * force / spring;
   EXPECT_GT(-end.contact, least);
   EXPECT_LT(-end.contact, 1.2 * least);
   EXPECT_LT(end.balance_error, 5e-3);
 }
 
-// The same with springs that stiffen. Of 16 equal spheres in a row with the blocks: F = 16 · 4/3 E* √R* o^(3/2), so
-// that the blocks are shortened by what is left of the way, 2 F/k. What they store, 2/5 F o for a force that is the
-// same, is less than what the edges' greater shares come to; and the tangent leads Newton to the equilibrium without
-// help.
+// The same with springs that stiffen. Sixteen equal spheres in a row with the blocks have F = 16 · 4/3 E* √R* o^(3/2),
+// so that the blocks are shortened by the rest of the displacement, 2 F/k. Their energy, 2/5 F o at the same force, is
+// less than the greater part of the edges adds; and the tangent leads Newton to the equilibrium without help.
 TEST(QuasiStaticContact, CarriesOneBlockOnAnotherByHertz) {
   const double modulus = young;
   Pair pair(lattice_of({4, 4, 10}, elastic(young, poisson)), 0.05 * spacing,
@@ -317,7 +316,7 @@ TEST(QuasiStaticContact, CarriesOneBlockOnAnotherByHertz) {
   EXPECT_NEAR(force, expected, 0.2 * expected);
   const double stored = 0.4 * force * std::pow(force / coefficient, 2.0 / 3);
   EXPECT_NEAR(-end.contact, stored, 0.2 * stored);
-  // What is put in is summed by trapezoids: of a force that goes with x^(3/2) too much by 0.3/n² of it, 2 % in 4 steps.
+  // Trapezoids sum the work: for a force that grows as x^(3/2) too much by 0.3/n² of it, 2 % in 4 steps.
   EXPECT_LT(end.balance_error, 5e-3);
 }
 
@@ -368,7 +367,8 @@ TEST(QuasiStaticSurfaces, DragWithTheirShareOfThePressure) {
   });
   EXPECT_GT(stuck, 0);
   EXPECT_LT(solver.ledger().contact, 0);  // friction takes
-  // Of a law in rates: the strain; and of trapezoids under a force that curves as points begin to touch, over 8 steps.
+  // Errors of a law in rates: the strain; and of trapezoids under a force that curves as points begin to touch, over 8
+  // steps.
   EXPECT_LT(solver.ledger().balance_error, 0.01);
 }
 

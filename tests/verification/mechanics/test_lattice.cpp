@@ -163,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{2.015, Influence::linear_decay, 0, 0.01, 0.7, {1e-3, 1e-3, 1e-3}, {21, 12, 11}, true},
                     Case{3.015, Influence::one, 0.02, 0, 0.7, {1e-3, 1e-3, 1e-3}, {21, 12, 11}, true}));
 
-// What a cluster adds up in the lane of a point is what the point's own family adds up, but for round-off.
+// The sum in a point's lane of a cluster is that over the point's own family, but for round-off.
 TEST(ClusterLists, LanesAreTheSumsOfTheirPoints) {
   const Communicator world;
   Body body = body_of({2.3, Influence::linear_decay, 0.02, 0.01, 0.8}, FamilyKind::lists, world);
@@ -196,7 +196,7 @@ TEST(ClusterLists, LanesAreTheSumsOfTheirPoints) {
   EXPECT_EQ(seen, static_cast<std::size_t>(body.owned()));
 }
 
-// What is no lattice has lists, and so has one that is faster with them.
+// A body that is no lattice has lists, and so has one that is faster with them.
 TEST(NoLattice, HasLists) {
   const Communicator world;
   const Body moved = lattice_body({{6, 6, 6}, 1, 2.015, 1e-6, Influence::one, {1000, elastic(1e9, 0.3)}}, world);

@@ -127,8 +127,8 @@ TEST(Images, FillSpaceOnce) {
   EXPECT_THROW(images(1), Error);
 }
 
-// Of parallel planes each has the bonds across it: where a body between two is strained at one of them only, this is
-// the sum of the internal forces, as bonds within the body give nothing to it.
+// Each of two parallel planes has the bonds across it: where a body between two is strained at one of them only, this
+// is the sum of the internal forces, as bonds within the body give nothing to it.
 TEST(MirrorForces, OfParallelPlanesAreThoseOfTheBondsAcross) {
   const Communicator world;
   for (const BlockMaterial& material : {by_mean, by_silling, ordinary, quadratic}) {

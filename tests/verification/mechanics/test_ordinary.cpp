@@ -58,8 +58,8 @@ TEST_P(Ordinary, IsotropicStretchIsExactEverywhere) {
             10 * round_off);
 }
 
-// What a lattice makes of the mean of n_x² n_y² and ¼ (n_x² − n_y²)² over the sphere, 1/15 each: 15 Σ ω |ξ|² (…) V / m
-// over the family of point i. Shear moduli of the lattice are these times μ: along its axes, and at 45° to them.
+// The means of n_x² n_y² and ¼ (n_x² − n_y²)² over the sphere, 1/15 each, as a lattice evaluates them: 15 Σ ω |ξ|² (…)
+// V / m over the family of point i. Shear moduli of the lattice are these times μ: along its axes, and at 45° to them.
 struct Quadrature {
   double axes = 0, diagonals = 0;
 };
@@ -379,7 +379,7 @@ double pulse_error(int cells, const Communicator& world) {
   CentralDifference solver(body, {}, {}, {0, 0.5}, 0);
   run_until(solver, way / speed);
   const auto exact = [&](double x) { return 0.5 * (start(x - way) + start(x + way)); };
-  // What the sides send has not come this far.
+  // Waves from the sides have not come this far.
   return displacement_error(body, exact, [&](int i) { return depth(i) >= 0.25 * length - reach; });
 }
 

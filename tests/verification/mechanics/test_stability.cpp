@@ -75,8 +75,8 @@ TEST(Stability, PatternsAreResisted) {
   }
 }
 
-// What random displacements leave: their mean over 2000 steps, as a part of them (root mean squares, less the shift of
-// the whole body). What is resisted swings about zero, what is not stays where it is.
+// The remaining part of random displacements: their mean over 2000 steps (root mean squares, less the shift of the
+// whole body). Resisted ones swing about zero, others stay.
 double left_of_noise(double stabilization) {
   constexpr int steps = 2000;
   const Communicator world;
@@ -107,7 +107,7 @@ double left_of_noise(double stabilization) {
   return spread(mean) / spread(first);
 }
 
-// Of all patterns those that F does not see are few: noise is resisted without stabilization too.
+// Only few of all patterns are those that F does not see: noise is resisted without stabilization too.
 TEST(Stability, RandomNoiseIsResisted) {
   const double held = left_of_noise(coefficient), plain = left_of_noise(0);
   row("random displacements",

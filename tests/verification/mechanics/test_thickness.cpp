@@ -51,7 +51,7 @@ Cells turned(Cells cells) {
   return cells;
 }
 
-// Of a box 4 V/S.
+// The thickness of a box, 4 V/S.
 double exact(double a, double b, double c) { return 2 / (1 / a + 1 / b + 1 / c); }
 
 // Points see faces in steps from layer to layer, which makes plates and square bars along a lattice up to 7 % too
