@@ -5,23 +5,13 @@ import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 import warnings
 
 import block
 import numpy as np
 import strut
-from block import SPACING
-
-
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        keep = tempfile.TemporaryDirectory()
-        self.addCleanup(keep.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(keep.name)
-        self.folder = pathlib.Path(keep.name)
+from block import SPACING, InFolder
 
 
 class Runs(InFolder):
