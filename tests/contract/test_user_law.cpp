@@ -146,11 +146,18 @@ TEST(UserLibrary, ThatIsNoneIsAnError) {
   EXPECT_THROW(loaded(STRUT_USER_J2, "no_such_function", LibraryInterface::strut), Error);
 }
 
-TEST(UserLibraryDeathTest, CrashIsToldAsItsOwn) {
-  UserLaw::State state;
-  const UserLaw law = law_of("crashes");
-  EXPECT_DEATH(law.step(PointStep{Symmetric::Zero(), 1e-7, 1, Symmetric::Zero()}, Symmetric::Zero(), state),
-               "user_j2.* crashed: a fault of that library");
+TEST(UserLibraryDeathTest, FaultIsToldAsItsOwnWithThePoint) {
+  const auto call = [](const std::string& function) {
+    const double place[3] = {1e-3, 2e-3, -0.5};
+    PointsOfCall<UserLaw> here;
+    here.add(place);
+    UserLaw::State state;
+    law_of(function).step(PointStep{Symmetric::Zero(), 1e-7, 1, Symmetric::Zero()}, Symmetric::Zero(), state);
+  };
+  const std::string point = " at the point with the reference position .0.001, 0.002, -0.5. m: a fault of that library";
+  EXPECT_DEATH(call("crashes"), "user_j2.* crashed" + point);
+  // STOP of Fortran ends a program with the status 0.
+  EXPECT_EXIT(call("stops"), ::testing::ExitedWithCode(1), "user_j2.* ended the program.*" + point);
 }
 
 }  // namespace
