@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <sstream>
 
@@ -17,6 +18,16 @@ namespace strut::materials {
 namespace {
 
 using library_calls::Inside;
+
+// Why a library gave no stress.
+constexpr const char* gave_up = "found no stress (PNEWDT below 1, or `failed`)";
+constexpr const char* no_number =
+    "gave a stress, a state variable or an energy that is no number; does it have all its Constants?";
+constexpr const char* wrote_beyond = "changed a state variable beyond its State Variables";
+std::atomic<const char*> complaint = gave_up;  // the last one
+
+constexpr int none_behind = 32;
+int count_of(const std::vector<double>& constants) { return static_cast<int>(constants.size()) - none_behind; }
 
 constexpr int most_points = 8, most = UserLaw::most_states;
 
@@ -56,7 +67,7 @@ struct Fixed {
   explicit Fixed(const UserLaw& law)
       : cmname(fortran_text(law.name)),
         props(const_cast<double*>(law.constants.data())),  // Fortran knows no constants
-        nprops(law.constant_count),
+        nprops(count_of(law.constants)),
         nstatv(law.states),
         copied(std::min(law.states + 1, most)) {}
 
@@ -147,11 +158,6 @@ void call(const UserLaw& law, const strut_step& s) {
 
 }  // namespace
 
-constexpr const char* gave_up = "found no stress (PNEWDT below 1, or `failed`)";
-constexpr const char* no_number =
-    "gave a stress, a state variable or an energy that is no number; does it have all its Constants?";
-constexpr const char* wrote_beyond = "changed a state variable beyond its State Variables";
-
 LibraryFunction loaded(const std::string& file, const std::string& name, LibraryInterface interface) {
   library_calls::watch();
   const auto reason = [] {
@@ -166,17 +172,12 @@ LibraryFunction loaded(const std::string& file, const std::string& name, Library
   return {file, name, interface, std::move(library), address};
 }
 
-void UserLaw::set_constants(std::vector<double> given) {
-  constexpr std::size_t more = 32;
-  constant_count = static_cast<int>(given.size());
-  constants = std::move(given);
-  constants.resize(constants.size() + more, std::numeric_limits<double>::quiet_NaN());
+std::vector<double> UserLaw::with_none_behind(std::vector<double> constants) {
+  constants.resize(constants.size() + none_behind, std::numeric_limits<double>::quiet_NaN());
+  return constants;
 }
 
-std::string UserLaw::why_no_stress() const {
-  const char* const complaint = *function.complaint;
-  return "the library " + function.file + " " + (complaint ? complaint : gave_up);
-}
+std::string UserLaw::why_no_stress() const { return "the library " + function.file + " " + complaint.load(); }
 
 void UserLaw::advance(int points, const double* dt, const double* rate, const double* J, const double* stretch,
                       double* state, double* stress, double* converged) const {
@@ -200,27 +201,22 @@ void UserLaw::advance(int points, const double* dt, const double* rate, const do
       U[k] = J[p] > 0 ? stretch[k] : c < 3;
     }
   }
-  const strut_step step{points,     constant_count,
-                        states,     constants.data(),
-                        time,       dt,
-                        d,          strain,
-                        old,        U,
-                        det,        stress,
-                        state,      stored,
-                        dissipated, failed};
+  const strut_step step{
+      points, count_of(constants), states, constants.data(), time, dt, d, strain, old, U, det, stress, state,
+      stored, dissipated,          failed};
   call(*this, step);
   for (int p = 0; p < points; ++p) {
     double sum = stored[p] + dissipated[p];
     for (int c = 0; c < 6; ++c) sum += stress[c * points + p];
     for (int c = 0; c < states; ++c) sum += state[c * points + p];
     const int beyond = states * points + p;
-    const char* const complaint = failed[p] != 0                                       ? gave_up
-                                  : !is_finite(sum)                                    ? no_number
-                                  : states < most && state[beyond] != kept[beyond] ? wrote_beyond
-                                                                                       : nullptr;
-    converged[p] = complaint == nullptr;
-    if (complaint) {
-      *function.complaint = complaint;
+    const char* const wrong = failed[p] != 0                                   ? gave_up
+                              : !is_finite(sum)                                ? no_number
+                              : states < most && state[beyond] != kept[beyond] ? wrote_beyond
+                                                                               : nullptr;
+    converged[p] = wrong == nullptr;
+    if (wrong) {
+      complaint = wrong;
       for (int c = 0; c < most + 2; ++c) state[c * points + p] = kept[c * points + p];
       continue;
     }
@@ -258,10 +254,10 @@ LibraryTrial tried(const UserLaw& given) {
   if (law.states < most) rest.user[law.states] = 12345.678;  // which it must leave alone
   const PointStress still = law.step(PointStep{Symmetric::Zero(), dt, 1, unit}, Symmetric::Zero(), rest);
   if (!still.converged) {
-    const char* const complaint = *law.function.complaint;
-    wrong(complaint == wrote_beyond ? "changes state variable " + std::to_string(law.states + 1) + " of " +
-                                          std::to_string(law.states) + " (State Variables)"
-                                    : "in a step without strain " + std::string(complaint));
+    const std::string why = complaint.load();
+    wrong(why == wrote_beyond ? "changes state variable " + std::to_string(law.states + 1) + " of " +
+                                    std::to_string(law.states) + " (State Variables)"
+                              : "in a step without strain " + why);
   }
   const double large = still.stress.cwiseAbs().maxCoeff();
   if (large > 1e-9 * moduli.bulk) {
@@ -279,7 +275,7 @@ LibraryTrial tried(const UserLaw& given) {
     const PointStress next =
         law.step(PointStep{d / dt, dt, to_tensor(stretch).determinant(), stretch}, Symmetric::Zero(), state);
     if (!next.converged) {
-      wrong("for a strain of 1e-7 " + std::string(*law.function.complaint));
+      wrong("for a strain of 1e-7 " + std::string(complaint));
       return found;
     }
     if (state.stored > 0) found.tells_energy = true;

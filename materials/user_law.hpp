@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <limits>
 #include <memory>
 #include <string>
@@ -25,8 +24,6 @@ struct LibraryFunction {
   LibraryInterface interface = LibraryInterface::strut;
   std::shared_ptr<void> library;
   void* address = nullptr;
-  // Why it gave no stress when it last did not.
-  std::shared_ptr<std::atomic<const char*>> complaint = std::make_shared<std::atomic<const char*>>(nullptr);
 };
 
 // Loads the library and finds its function. Throws Error, with the reason of the system, if there is none.
@@ -38,8 +35,7 @@ struct UserLaw {
   double bulk = 0, shear = 0;     // Pa
   double density = 0;             // kg/m³, undeformed
   std::string name;               // of the material: CMNAME
-  std::vector<double> constants;  // PROPS, and behind them numbers that are none, which a law does not read
-  int constant_count = 0;
+  std::vector<double> constants;  // PROPS, and behind them numbers that are none, so that a law that reads more fails
   int states = 1;                 // number of state variables of the library, STATEV
   LibraryFunction function;
   bool tells_energy = false;  // the library counts its energies; else they follow from the elastic constants
@@ -117,9 +113,9 @@ struct UserLaw {
   bool has_flowed(const State& state) const { return tells_energy && state.dissipated > 0; }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
-  std::string why_no_stress() const;
+  std::string why_no_stress() const;  // the last time that a library gave none
 
-  void set_constants(std::vector<double> given);
+  static std::vector<double> with_none_behind(std::vector<double> constants);
 
  private:
   template <class T>

@@ -170,8 +170,8 @@ TEST(Hyperelastic, TangentAtLargeStretchIsThatOfTheClosedForm) {
       }
       Symmetric stretch = Symmetric::Zero(), unit = stretch;
       stretch.head<3>() = stretches, unit.head<3>().setOnes();
-      const StretchTangent found = tangent_of(law, PointStep{Symmetric::Zero(), dt, J, stretch}, Symmetric::Zero(),
-                                              Hyperelastic::State(), unit);
+      const StretchTangent found =
+          tangent_of(law, PointStep{Symmetric::Zero(), dt, J, stretch}, Symmetric::Zero(), Hyperelastic::State(), unit);
       EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-6 * expected.cwiseAbs().maxCoeff()) << relaxes;
     }
   }

@@ -21,7 +21,7 @@ J2 built_in() { return {bulk, shear, {yield, LinearHardening{hardening}, NoRate{
 
 UserLaw law_of(const std::string& function, LibraryInterface interface = LibraryInterface::strut) {
   UserLaw law{.bulk = bulk, .shear = shear, .density = 8960, .name = "copper"};
-  law.set_constants({bulk, shear, yield, hardening});
+  law.constants = UserLaw::with_none_behind({bulk, shear, yield, hardening});
   law.states = 1;
   law.function = loaded(STRUT_USER_J2, function, interface);
   law.tells_energy = true;
@@ -129,7 +129,8 @@ TEST(UserLibrary, IsTriedAtTheStart) {
       {"beyond_its_states", "changes state variable 2 of 1 (State Variables)"},
       {"far_too_stiff", "is stiffer, 1e+15 Pa, than its elastic constants say"},
       {"not_a_number", "in a step without strain gave a stress, a state variable or an energy that is no number"},
-      {"reads_a_fifth_constant", "in a step without strain gave a stress, a state variable or an energy that is no number"},
+      {"reads_a_fifth_constant",
+       "in a step without strain gave a stress, a state variable or an energy that is no number"},
       {"unable", "in a step without strain found no stress (PNEWDT"}};
   for (const auto& [function, words] : wrong) {
     const std::string problem = tried(law_of(function)).problem;
