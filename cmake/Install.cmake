@@ -33,6 +33,8 @@ install(DIRECTORY tools DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
         REGEX "\\.(cpp|hpp|cmake)$|CMakeLists.txt|__pycache__|/python$|/(prepare|test|site|packages(-[a-z]+)?)$" EXCLUDE)
 install(DIRECTORY inputs DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
         REGEX "\\.(g|e|csv|png|log|restart|restart\\.old)$" EXCLUDE)  # what runs have left
+install(DIRECTORY materials/abaqus DESTINATION ${STRUT_SHARE}/materials)  # for laws of one's own
+install(FILES materials/strut_law.h DESTINATION ${STRUT_SHARE}/materials)
 install(DIRECTORY docs DESTINATION ${STRUT_SHARE})
 install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${STRUT_SHARE})
 

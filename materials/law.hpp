@@ -25,6 +25,7 @@
 //   stored_energy     optional, for laws that count it: elastic energy, J per m³ of reference volume.
 //   heat              optional, for laws with a temperature: ρ c_p (T − T₀), J per m³ of reference volume.
 //   set_initial_temperature  optional, with heat: K.
+//   why_no_stress     optional: what a user is told where a step has not converged.
 //   shows             optional: false for the index of a state variable that output does not have.
 //   StateOf<T>        optional, SIMD: a law may process several points at once, one per lane. Its step and StateOf<T>
 //                     are then templates over the scalar, double or RawLanes, State is StateOf<double>. All lanes are

@@ -1,16 +1,14 @@
 #include "materials/user_law.hpp"
 
 #include <dlfcn.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
-#include <csignal>
-#include <cstdlib>
-#include <cstring>
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "materials/library_calls.hpp"
 #include "materials/step_work.hpp"
 #include "materials/strut_law.h"
 #include "materials/tangent.hpp"
@@ -19,41 +17,19 @@ namespace strut::materials {
 
 namespace {
 
+using library_calls::Inside;
+
+// Why a library gave no stress.
+constexpr const char* gave_up = "found no stress (PNEWDT below 1, or `failed`)";
+constexpr const char* no_number =
+    "gave a stress, a state variable or an energy that is no number; does it have all its Constants?";
+constexpr const char* wrote_beyond = "changed a state variable beyond its State Variables";
+std::atomic<const char*> complaint = gave_up;  // the last one
+
+constexpr int none_behind = 32;
+int count_of(const std::vector<double>& constants) { return static_cast<int>(constants.size()) - none_behind; }
+
 constexpr int most_points = 8, most = UserLaw::most_states;
-
-// ---- Crashes --------------------------------------------------------------------------------------------------------
-
-// The library that this thread is in, so that its crash is not taken for one of strut.
-thread_local const char* inside = nullptr;
-
-void tell(const char* what) {
-  for (const char* text : {"\nstrut: the library ", inside, what}) {
-    if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
-  }
-}
-
-void on_crash(int signal) {
-  if (inside) tell(" of a User Library material crashed: a fault of that library\n");
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
-}
-
-void on_exit() {
-  if (inside) tell(" of a User Library material ended the program\n");
-}
-
-void watch_for_crashes() {
-  static const bool once = [] {
-    for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) std::signal(signal, on_crash);
-    return std::atexit(on_exit) == 0;
-  }();
-  static_cast<void>(once);
-}
-
-struct Inside {
-  explicit Inside(const std::string& file) { inside = file.c_str(); }
-  ~Inside() { inside = nullptr; }
-};
 
 // ---- The interfaces -------------------------------------------------------------------------------------------------
 
@@ -91,7 +67,7 @@ struct Fixed {
   explicit Fixed(const UserLaw& law)
       : cmname(fortran_text(law.name)),
         props(const_cast<double*>(law.constants.data())),  // Fortran knows no constants
-        nprops(static_cast<int>(law.constants.size())),
+        nprops(count_of(law.constants)),
         nstatv(law.states),
         copied(std::min(law.states + 1, most)) {}
 
@@ -101,14 +77,15 @@ struct Fixed {
   int copied;  // state variables: one more than the library has, so that a trial finds one that changes it (tried)
 };
 
-void call_umat(const UserLaw& law, const strut_step& s) {
+void call_umat(const UserLaw& law, const strut_step& s, Inside& here) {
   // UMAT's shear components are xy xz yz, and shear strains are doubled.
   constexpr int place[6] = {0, 1, 2, 3, 5, 4};
   constexpr int full[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
   Fixed fixed(law);
   for (int p = 0; p < s.points; ++p) {
+    here.takes(p);
     const auto at = [&](const double* values, int c) { return values[c * s.points + p]; };
-    double stress[6], strain[6], increment[6], statev[most], before[9], after[9];
+    double stress[6], strain[6], increment[6], statev[most + 1], before[9], after[9];
     for (int c = 0; c < 6; ++c) {
       const int from = place[c];
       const double doubled = c < 3 ? 1 : 2;
@@ -135,12 +112,13 @@ void call_umat(const UserLaw& law, const strut_step& s) {
   }
 }
 
-void call_vumat(const UserLaw& law, const strut_step& s) {
+void call_vumat(const UserLaw& law, const strut_step& s, Inside& here) {
   constexpr int full[9] = {0, 1, 2, 3, 4, 5, 3, 4, 5};  // 11 22 33 12 23 31 21 32 13
   Fixed fixed(law);
   for (int p = 0; p < s.points; ++p) {
+    here.takes(p);
     const auto at = [&](const double* values, int c) { return values[c * s.points + p]; };
-    double old_stress[6], stress[6], increment[6], before[9], after[9], old_state[most], state[most];
+    double old_stress[6], stress[6], increment[6], before[9], after[9], old_state[most + 1], state[most + 1];
     for (int c = 0; c < 6; ++c) {
       old_stress[c] = stress[c] = at(s.stress, c);
       increment[c] = at(s.rate, c) * s.dt[p];
@@ -167,21 +145,21 @@ void call_vumat(const UserLaw& law, const strut_step& s) {
 }
 
 void call(const UserLaw& law, const strut_step& s) {
-  const Inside here(law.function.file);
+  Inside here(law.function.file);
   switch (law.function.interface) {
     case LibraryInterface::strut:
       return reinterpret_cast<StrutLaw>(law.function.address)(&s);
     case LibraryInterface::umat:
-      return call_umat(law, s);
+      return call_umat(law, s, here);
     case LibraryInterface::vumat:
-      return call_vumat(law, s);
+      return call_vumat(law, s, here);
   }
 }
 
 }  // namespace
 
 LibraryFunction loaded(const std::string& file, const std::string& name, LibraryInterface interface) {
-  watch_for_crashes();
+  library_calls::watch();
   const auto reason = [] {
     const char* text = dlerror();
     return std::string(text ? text : "unknown error");
@@ -193,6 +171,13 @@ LibraryFunction loaded(const std::string& file, const std::string& name, Library
   if (!address) throw Error("has no function '" + name + "': " + reason());
   return {file, name, interface, std::move(library), address};
 }
+
+std::vector<double> UserLaw::with_none_behind(std::vector<double> constants) {
+  constants.resize(constants.size() + none_behind, std::numeric_limits<double>::quiet_NaN());
+  return constants;
+}
+
+std::string UserLaw::why_no_stress() const { return "the library " + function.file + " " + complaint.load(); }
 
 void UserLaw::advance(int points, const double* dt, const double* rate, const double* J, const double* stretch,
                       double* state, double* stress, double* converged) const {
@@ -216,22 +201,22 @@ void UserLaw::advance(int points, const double* dt, const double* rate, const do
       U[k] = J[p] > 0 ? stretch[k] : c < 3;
     }
   }
-  const strut_step step{points,     static_cast<int>(constants.size()),
-                        states,     constants.data(),
-                        time,       dt,
-                        d,          strain,
-                        old,        U,
-                        det,        stress,
-                        state,      stored,
-                        dissipated, failed};
+  const strut_step step{
+      points, count_of(constants), states, constants.data(), time, dt, d, strain, old, U, det, stress, state,
+      stored, dissipated,          failed};
   call(*this, step);
   for (int p = 0; p < points; ++p) {
     double sum = stored[p] + dissipated[p];
     for (int c = 0; c < 6; ++c) sum += stress[c * points + p];
     for (int c = 0; c < states; ++c) sum += state[c * points + p];
-    const bool good = failed[p] == 0 && is_finite(sum);
-    converged[p] = good;
-    if (!good) {
+    const int beyond = states * points + p;
+    const char* const wrong = failed[p] != 0                                   ? gave_up
+                              : !is_finite(sum)                                ? no_number
+                              : states < most && state[beyond] != kept[beyond] ? wrote_beyond
+                                                                               : nullptr;
+    converged[p] = wrong == nullptr;
+    if (wrong) {
+      complaint = wrong;
       for (int c = 0; c < most + 2; ++c) state[c * points + p] = kept[c * points + p];
       continue;
     }
@@ -266,14 +251,13 @@ LibraryTrial tried(const UserLaw& given) {
   unit.head<3>().setOnes();
 
   UserLaw::State rest;
-  constexpr double mark = 12345.678;
-  for (int k = law.states; k < most; ++k) rest.user[k] = mark;
+  if (law.states < most) rest.user[law.states] = 12345.678;  // which it must leave alone
   const PointStress still = law.step(PointStep{Symmetric::Zero(), dt, 1, unit}, Symmetric::Zero(), rest);
-  if (!still.converged) wrong("finds no stress in a step without strain, or one that is no number");
-  for (int k = law.states; k < most; ++k) {
-    if (rest.user[k] == mark) continue;
-    wrong("changes state variable " + std::to_string(k + 1) + " of " + std::to_string(law.states) +
-          " (State Variables)");
+  if (!still.converged) {
+    const std::string why = complaint.load();
+    wrong(why == wrote_beyond ? "changes state variable " + std::to_string(law.states + 1) + " of " +
+                                    std::to_string(law.states) + " (State Variables)"
+                              : "in a step without strain " + why);
   }
   const double large = still.stress.cwiseAbs().maxCoeff();
   if (large > 1e-9 * moduli.bulk) {
@@ -291,7 +275,7 @@ LibraryTrial tried(const UserLaw& given) {
     const PointStress next =
         law.step(PointStep{d / dt, dt, to_tensor(stretch).determinant(), stretch}, Symmetric::Zero(), state);
     if (!next.converged) {
-      wrong("finds no stress for a strain of 1e-7, or one that is no number");
+      wrong("for a strain of 1e-7 " + std::string(complaint));
       return found;
     }
     if (state.stored > 0) found.tells_energy = true;

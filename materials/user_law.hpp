@@ -12,6 +12,7 @@
 
 #include "materials/elastic.hpp"
 #include "materials/law.hpp"
+#include "materials/library_calls.hpp"
 
 namespace strut::materials {
 
@@ -34,7 +35,7 @@ struct UserLaw {
   double bulk = 0, shear = 0;     // Pa
   double density = 0;             // kg/m³, undeformed
   std::string name;               // of the material: CMNAME
-  std::vector<double> constants;  // PROPS
+  std::vector<double> constants;  // PROPS, and behind them numbers that are none, so that a law that reads more fails
   int states = 1;                 // number of state variables of the library, STATEV
   LibraryFunction function;
   bool tells_energy = false;  // the library counts its energies; else they follow from the elastic constants
@@ -112,6 +113,9 @@ struct UserLaw {
   bool has_flowed(const State& state) const { return tells_energy && state.dissipated > 0; }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
+  std::string why_no_stress() const;  // the last time that a library gave none
+
+  static std::vector<double> with_none_behind(std::vector<double> constants);
 
  private:
   template <class T>

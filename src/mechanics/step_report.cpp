@@ -17,6 +17,22 @@ std::string locate(const Body& body, int i) {
   return text.str();
 }
 
+namespace {
+
+std::string why_no_stress(const MaterialBlock& block) {
+  const auto of_law = [](const auto& law) -> std::string {
+    if constexpr (requires { law.why_no_stress(); }) {
+      return law.why_no_stress();
+    } else {
+      return "the material law found no stress. Likely causes: a strain increment that is not finite or far too large "
+             "for one step, material constants of the wrong unit";
+    }
+  };
+  return std::visit(of_law, block.material.law);
+}
+
+}  // namespace
+
 std::string describe(const Failure& failure, const Body& body) {
   std::ostringstream text;
   text << locate(body, failure.point) << ": ";
@@ -26,8 +42,7 @@ std::string describe(const Failure& failure, const Body& body) {
               "step above the stable one, too little stabilization, a load too sudden";
       break;
     case Failure::Kind::no_stress:
-      text << "the material law found no stress. Likely causes: a strain increment that is not finite or far too large "
-              "for one step, material constants of the wrong unit";
+      text << why_no_stress(body.block_of(failure.point));
       break;
     case Failure::Kind::not_finite:
       text << "its strain is not a number (places are not, or two points met). Likely causes: a step above the stable "

@@ -137,5 +137,45 @@ TEST(Hyperelastic, TangentAtRestIsThatOfItsModuli) {
   EXPECT_NEAR(tangent(3, 3), 2 * law.shear(), 1e-6 * law.bulk);
 }
 
+// Far from rest, in the axes of the stretch, of a first step after which the deviator has f = γ_∞ + Σ γ_k e^(−Δt/2t_k)
+// of itself left: σ_i = (f/J) (τ̄_i − τ̄_m) + K (J − 1), τ̄_i = Σ μ_p λ̄_i^α_p, τ̄_m their mean. With shears the axes
+// turn: ∂σ_ij/∂U_ij = (σ_i − σ_j)/(λ_i − λ_j).
+TEST(Hyperelastic, TangentAtLargeStretchIsThatOfTheClosedForm) {
+  constexpr double dt = 0.1;
+  for (Hyperelastic law : {neo_hookean(), mooney_rivlin(), ogden()}) {
+    for (const bool relaxes : {false, true}) {
+      law.bulk = 5e6;
+      if (relaxes) law.times = {{{0.3, 0.1}, {0.2, 1.0}}};
+      const double f = relaxes ? 0.5 + 0.3 * std::exp(-0.5) + 0.2 * std::exp(-0.05) : 1;
+      const Vector stretches{2.5, 0.8, 0.45};
+      const double J = stretches.prod();
+      Vector kirchhoff = Vector::Zero();
+      Tensor slope = Tensor::Zero();  // ∂τ̄_i/∂λ_j
+      for (const auto& [modulus, exponent] : law.terms) {
+        for (int i = 0; i < 3; ++i) {
+          const double part = modulus * std::pow(stretches[i] / std::cbrt(J), exponent);
+          kirchhoff[i] += part;
+          for (int j = 0; j < 3; ++j) slope(i, j) += part * exponent * ((i == j) - 1.0 / 3) / stretches[j];
+        }
+      }
+      const Vector sides = f / J * (kirchhoff.array() - kirchhoff.mean()).matrix();  // deviator of σ
+      StretchTangent expected = StretchTangent::Zero();
+      for (int j = 0; j < 3; ++j) {
+        const double mean = slope.col(j).mean();
+        for (int i = 0; i < 3; ++i) {
+          expected(i, j) = f / J * (slope(i, j) - mean) - sides[i] / stretches[j] + law.bulk * J / stretches[j];
+        }
+        const int next = (j + 1) % 3;  // xy yz zx
+        expected(3 + j, 3 + j) = (sides[j] - sides[next]) / (stretches[j] - stretches[next]);
+      }
+      Symmetric stretch = Symmetric::Zero(), unit = stretch;
+      stretch.head<3>() = stretches, unit.head<3>().setOnes();
+      const StretchTangent found =
+          tangent_of(law, PointStep{Symmetric::Zero(), dt, J, stretch}, Symmetric::Zero(), Hyperelastic::State(), unit);
+      EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-6 * expected.cwiseAbs().maxCoeff()) << relaxes;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace strut::testing

@@ -21,7 +21,7 @@ J2 built_in() { return {bulk, shear, {yield, LinearHardening{hardening}, NoRate{
 
 UserLaw law_of(const std::string& function, LibraryInterface interface = LibraryInterface::strut) {
   UserLaw law{.bulk = bulk, .shear = shear, .density = 8960, .name = "copper"};
-  law.constants = {bulk, shear, yield, hardening};
+  law.constants = UserLaw::with_none_behind({bulk, shear, yield, hardening});
   law.states = 1;
   law.function = loaded(STRUT_USER_J2, function, interface);
   law.tells_energy = true;
@@ -128,8 +128,10 @@ TEST(UserLibrary, IsTriedAtTheStart) {
       {"prestressed", "gives a stress of 1e+06 Pa in a step of the undeformed state without strain"},
       {"beyond_its_states", "changes state variable 2 of 1 (State Variables)"},
       {"far_too_stiff", "is stiffer, 1e+15 Pa, than its elastic constants say"},
-      {"not_a_number", "finds no stress in a step without strain, or one that is no number"},
-      {"unable", "finds no stress in a step without strain"}};
+      {"not_a_number", "in a step without strain gave a stress, a state variable or an energy that is no number"},
+      {"reads_a_fifth_constant",
+       "in a step without strain gave a stress, a state variable or an energy that is no number"},
+      {"unable", "in a step without strain found no stress (PNEWDT"}};
   for (const auto& [function, words] : wrong) {
     const std::string problem = tried(law_of(function)).problem;
     EXPECT_NE(problem.find(words), std::string::npos) << function << ": " << problem;
@@ -145,11 +147,18 @@ TEST(UserLibrary, ThatIsNoneIsAnError) {
   EXPECT_THROW(loaded(STRUT_USER_J2, "no_such_function", LibraryInterface::strut), Error);
 }
 
-TEST(UserLibraryDeathTest, CrashIsToldAsItsOwn) {
-  UserLaw::State state;
-  const UserLaw law = law_of("crashes");
-  EXPECT_DEATH(law.step(PointStep{Symmetric::Zero(), 1e-7, 1, Symmetric::Zero()}, Symmetric::Zero(), state),
-               "user_j2.* crashed: a fault of that library");
+TEST(UserLibraryDeathTest, FaultIsToldAsItsOwnWithThePoint) {
+  const auto call = [](const std::string& function) {
+    const double place[3] = {1e-3, 2e-3, -0.5};
+    PointsOfCall<UserLaw> here;
+    here.add(place);
+    UserLaw::State state;
+    law_of(function).step(PointStep{Symmetric::Zero(), 1e-7, 1, Symmetric::Zero()}, Symmetric::Zero(), state);
+  };
+  const std::string point = " at the point with the reference position .0.001, 0.002, -0.5. m: a fault of that library";
+  EXPECT_DEATH(call("crashes"), "user_j2.* crashed" + point);
+  // STOP of Fortran ends a program with the status 0.
+  EXPECT_EXIT(call("stops"), ::testing::ExitedWithCode(1), "user_j2.* ended the program.*" + point);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
  * where there are two state variables the sum of the steps, s. */
 #include <math.h>
 #include <stddef.h>
+#include <stdlib.h>
 
 #include "materials/strut_law.h"
 
@@ -111,5 +112,10 @@ void not_a_number(const struct strut_step* step) {
   int k;
   for (k = 0; k < 6 * step->points; ++k) step->stress[k] += sqrt(-1 - step->dt[0]);
 }
+void reads_a_fifth_constant(const struct strut_step* step) {
+  int k;
+  for (k = 0; k < 6 * step->points; ++k) step->stress[k] += step->constants[4] * step->rate[k];
+}
 void unable(const struct strut_step* step) { step->failed[0] = 1; }
 void crashes(const struct strut_step* step) { *(volatile int*)(size_t)(step->points - 1) = 0; }
+void stops(const struct strut_step* step) { exit(step->failed[0]); }

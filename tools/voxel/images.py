@@ -84,7 +84,7 @@ def read(path, raw=None, array=None, unit=None):
             headers.check_meta_image(path, values)
         return checked(path, values, image.GetSpacing(), ending, unit)
     if ending in NUMPY:
-        return Image(numpy_array(path), None, "NumPy")
+        return Image(numpy_array(path).transpose(), None, "NumPy's array [x, y, z]")
     if ending in TEXT:
         solid, spacing = points.lattice(path)
         return Image(solid, spacing, "list of points")
@@ -100,13 +100,13 @@ def ending_of(path):
 
 
 def numpy_array(path):
-    """Indices are [z, y, x], as of all images here."""
+    """Indices are [x, y, z], as in the module for Python."""
     try:
         values = np.load(path, allow_pickle=False)
     except (ValueError, EOFError, OSError) as error:
         fail(f"{path} cannot be read as NumPy's: {error}")
     if getattr(values, "ndim", 0) != 3 or 0 in values.shape:
-        fail(f"{path} is an array of the shape {getattr(values, 'shape', ())}; expected three axes: z, y, x")
+        fail(f"{path} is an array of the shape {getattr(values, 'shape', ())}; expected three axes: x, y, z")
     return values.astype(np.uint8) if values.dtype == bool else values
 
 

@@ -43,7 +43,7 @@ Section user_library_section() {
 materials::AnyLaw make_user_library(const Values& material, Problems& problems) {
   const materials::Moduli moduli = checked_moduli(material, problems);
   UserLaw law{.bulk = moduli.bulk, .shear = moduli.shear, .density = read_density(material), .name = material.name()};
-  law.constants = material[constants].value_or(std::vector<double>());
+  law.constants = UserLaw::with_none_behind(material[constants].value_or(std::vector<double>()));
   law.states = material[states];
   law.function.interface = material[interface];
   law.function.file = material[library];

@@ -229,6 +229,8 @@ struct LawUpdate {
     State state;
     if constexpr (columns > 0) state = std::bit_cast<State>(numbers);
     LaneSymmetric result = g.numbers.stresses();
+    materials::PointsOfCall<L> here;
+    for (int l = 0; l < g.group.count; ++l) here.add(body.domain.sites[g.group.i[l]].reference.data());
     const auto [stress, converged] =
         law.step({raw(now.rates), small::raw(dt), small::raw(now.J), raw(now.polar.stretch), small::raw(viscous_work)},
                  raw(result), state);

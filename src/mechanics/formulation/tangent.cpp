@@ -98,6 +98,8 @@ std::vector<PointTangent> point_tangents(const Body& body, const Committed& star
       for_each_point(0, static_cast<int>(block.points.size()), [&](int k) {
         if (!(block.moduli(block.place(k, 0)).longitudinal() > 0)) return;
         const int i = block.points[k];
+        materials::PointsOfCall<L> here;
+        here.add(body.domain.sites[i].reference.data());
         if (!block.is_quadratic()) {
           tangents[i] = at_place(k, start.point(i), body.points[i]);
           return;

@@ -1,6 +1,8 @@
-"""A block of voxels between two plates, as a deck and a mesh for tests of the module."""
+"""A block of voxels between two plates, as a deck and a mesh for tests of the module, and a folder for each test."""
 import os
 import sys
+import tempfile
+import unittest
 
 try:
     import numpy as np
@@ -42,3 +44,13 @@ FIELDS = {"Displacement": True, "Cauchy_Stress": True, "Equivalent_Plastic_Strai
 
 def output(name):
     return {"Output Filename": name, "Output Interval": 1e-6, "Output Variables": FIELDS}
+
+
+class InFolder(unittest.TestCase):
+    """Each test has a working folder of its own."""
+
+    def setUp(self):
+        keep = tempfile.TemporaryDirectory()
+        self.addCleanup(keep.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(keep.name)

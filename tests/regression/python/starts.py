@@ -5,14 +5,13 @@ import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 import warnings
 
 import block
 import numpy as np
 import strut
-from block import SPACING
+from block import SPACING, InFolder
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "checkpoint"))
 import restarts  # noqa: E402  its scenes: no two points alike, contact, friction, substeps, viscosity, breaking bonds
@@ -52,12 +51,9 @@ def ended(deck, steps, mesh=None, name="first.restart"):
     return run
 
 
-class Starts(unittest.TestCase):
+class Starts(InFolder):
     def setUp(self):
-        keep = tempfile.TemporaryDirectory()
-        self.addCleanup(keep.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(keep.name)
+        super().setUp()
         warnings.simplefilter("ignore")
 
     def assertGoesOn(self, whole, run, tolerance=0):

@@ -5,23 +5,14 @@ import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 import warnings
 
 import block
 import numpy as np
 import strut
-from block import SPACING
-
-
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        keep = tempfile.TemporaryDirectory()
-        self.addCleanup(keep.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(keep.name)
-        self.folder = pathlib.Path(keep.name)
+from block import SPACING, InFolder
+from strut.tools import tool
 
 
 class Runs(InFolder):
@@ -83,6 +74,18 @@ class Runs(InFolder):
                                   block.mesh()))
         slow, fast = (np.abs(run.whole("Displacement")[:, 2]).max() for run in kept)
         self.assertAlmostEqual(fast / slow, 2, 12)  # of the plate: speed times time
+
+    def test_the_history_is_a_table(self):
+        history = strut.run(block.deck(), block.mesh()).history
+        self.assertEqual(list(history), ["Time", "Step_Size", *list(history)[2:]])
+        self.assertEqual({len(column) for column in history.values()}, {len(history["Time"])})
+        try:
+            import pandas  # noqa: F401
+        except ImportError:
+            self.skipTest("no pandas")
+        table = history.to_pandas()
+        self.assertEqual(list(table), list(history))
+        np.testing.assert_array_equal(table.to_numpy(), np.transpose(list(history.values())))
 
     def test_a_probe_follows_the_nearest_point(self):
         place = np.array([2.4, 2.6, 4.4]) * SPACING
@@ -209,6 +212,13 @@ class Arrays(InFolder):
         np.testing.assert_array_equal(run.whole("Displacement"), run.fields["Displacement"][np.argsort(run.ids)])
         del run
         self.assertTrue(np.isfinite(places).all())  # the array keeps it
+
+    def test_an_array_is_the_same_body_here_and_for_tools_voxels(self):
+        np.save("solid.npy", block.solid())
+        tool("voxels", "solid.npy", "solid.g", block="block", voxel_size=SPACING)
+        one, other = block.mesh(), strut.mesh("solid.g")
+        np.testing.assert_array_equal(one.nodes[one.blocks["block"]], other.nodes[other.blocks["block"]])
+        self.assertEqual(one.nodes.max(axis=0).tolist(), [4 * SPACING, 5 * SPACING, 8 * SPACING])
 
     def test_gathered_voxels_keep_their_volume(self):
         rod = np.zeros((12, 12, 24))

@@ -107,21 +107,21 @@ class Surfaces(InFolder):
 class Arrays(InFolder):
     def test_an_array_is_the_image_that_its_numbers_are(self):
         values = np.random.default_rng(1).integers(0, 255, (6, 5, 4)).astype(np.uint8)
-        np.save(self.folder / "a.npy", values)
+        np.save(self.folder / "a.npy", values.transpose())
         values.tofile(self.folder / "a.raw")
         words = ["--voxel-size", 1e-3, "--threshold", 50]
         by_numpy = self.run_tool("voxels", "a.npy", "a.g", *words)
         self.assertEqual(by_numpy.returncode, 0, by_numpy.stderr)
         raw = self.run_tool("voxels", "a.raw", "b.g", *words, "--shape", 4, 5, 6, "--type", "uint8")
         self.assertEqual(by_numpy.stdout.splitlines()[1:-1], raw.stdout.splitlines()[1:-1])
-        np.save(self.folder / "bool.npy", values > 50)
+        np.save(self.folder / "bool.npy", values.transpose() > 50)
         done = self.run_tool("voxels", "bool.npy", "c.g", "--voxel-size", 1e-3)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_other_arrays_are_refused(self):
         np.save(self.folder / "flat.npy", np.ones((3, 4)))
         done = self.run_tool("voxels", "flat.npy", "out.g", "--voxel-size", 1)
-        self.assertIn("expected three axes: z, y, x", done.stderr)
+        self.assertIn("expected three axes: x, y, z", done.stderr)
         (self.folder / "broken.npy").write_bytes(b"\x93NUMPY\x01\x00")
         self.assertIn("cannot be read as NumPy's", self.run_tool("voxels", "broken.npy", "out.g", "--voxel-size", 1).stderr)
 

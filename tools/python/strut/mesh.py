@@ -61,7 +61,7 @@ def indices(numbers, user, count):
 
 
 def voxels(solid, spacing, origin=(0, 0, 0), name="foam", gather=None, smallest=0.3):
-    """The voxels of an array [x, y, z] that are solid, one element each; sets NAME_xmin, … of the faces of the box that
+    """The voxels of an array [x, y, z] (of a stack of pages, [z, y, x], give stack.T) that are solid, one element each; sets NAME_xmin, … of the faces of the box that
     they touch. spacing: of voxels, m, one or three numbers; origin: the lower corner, m. gather=N: cells of N³ voxels,
     partly filled (tools/README.md); solid may then be the part of each voxel that is solid, 0 to 1, and cells that are
     less than `smallest` full join a neighbor."""

@@ -23,7 +23,7 @@ class Curve:
     strain: np.ndarray
     stress: dict    # {column of force: Pa}
     time: np.ndarray
-    measures: dict  # {name: value}
+    measures: dict  # {name: value}; NaN for those without one
     text: str       # what tools/curve says
 
 
@@ -148,6 +148,6 @@ def measures(path):
 
 def number(text):
     try:
-        return float(text)
+        return float(text or "nan")
     except ValueError:
         return text

@@ -1,0 +1,124 @@
+#include "materials/library_calls.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <memory>
+
+namespace strut::materials::library_calls {
+
+namespace {
+
+struct Call {
+  const char* file = nullptr;  // of the library that this thread is in
+  const Points* points = nullptr;
+  int point = -1;  // the one that the library has; -1: all
+};
+thread_local Call call;
+
+// ---- What a handler of signals may do: no memory is asked for -------------------------------------------------------
+
+void tell(const char* text) {
+  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
+}
+
+void tell(double number) {
+  char text[32] = {};
+  std::to_chars(text, text + sizeof(text) - 1, number, std::chars_format::general, 6);
+  tell(text);
+}
+
+void tell_place(const double* X) {
+  for (int c = 0; c < 3; ++c) {
+    tell(c == 0 ? "(" : ", ");
+    tell(X[c]);
+  }
+  tell(") m");
+}
+
+void tell_fault(const char* what) {
+  tell("\nstrut: the library ");
+  tell(call.file);
+  tell(what);
+  if (call.points && call.points->count > 0) {
+    const bool one = call.point >= 0 || call.points->count == 1;
+    tell(one ? " at the point with the reference position " : " at one of the points next to the reference position ");
+    tell_place(call.points->places[one ? std::clamp(call.point, 0, call.points->count - 1) : 0]);
+  }
+  tell(": a fault of that library\n");
+}
+
+constexpr std::array signals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
+std::array<struct sigaction, signals.size()> before;  // how the process took them
+
+void on_crash(int signal) {
+  if (call.file) tell_fault(" of a User Library material crashed");
+  for (std::size_t k = 0; k < signals.size(); ++k) {
+    if (signals[k] == signal) sigaction(signal, &before[k], nullptr);
+  }
+  std::raise(signal);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+// STOP of Fortran has the status 0, by which nobody sees that the run has failed.
+void on_exit() {
+  if (!call.file) return;
+  std::cout.flush();
+  tell_fault(" of a User Library material ended the program (STOP, XIT, exit)");
+  call.file = nullptr;
+  std::exit(EXIT_FAILURE);  // in glibc the handlers that are left go on, with this status
+}
+
+// A library may crash because its thread has no stack left, and a handler needs some.
+struct SecondStack {
+  SecondStack() {
+    stack_t other{};
+    sigaltstack(nullptr, &other);
+    if (!(other.ss_flags & SS_DISABLE)) return;  // somebody else's
+    room = std::make_unique<char[]>(size);
+    const stack_t mine{.ss_sp = room.get(), .ss_flags = 0, .ss_size = size};
+    sigaltstack(&mine, nullptr);
+  }
+  ~SecondStack() {
+    const stack_t none{.ss_sp = nullptr, .ss_flags = SS_DISABLE, .ss_size = 0};
+    if (room) sigaltstack(&none, nullptr);
+  }
+  SecondStack(const SecondStack&) = delete;
+  SecondStack& operator=(const SecondStack&) = delete;
+
+  static constexpr std::size_t size = 65536;
+  std::unique_ptr<char[]> room;
+};
+
+}  // namespace
+
+void watch() {
+  static const bool once = [] {
+    struct sigaction action = {};
+    action.sa_handler = on_crash;
+    action.sa_flags = SA_ONSTACK;
+    for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &action, &before[k]);
+    return std::atexit(on_exit) == 0;
+  }();
+  static_cast<void>(once);
+}
+
+void stand_at(const Points* points) { call.points = points; }
+
+Inside::Inside(const std::string& file) {
+  thread_local const SecondStack stack;
+  static_cast<void>(stack);
+  call.point = -1;
+  call.file = file.c_str();
+}
+Inside::~Inside() { call.file = nullptr; }
+void Inside::takes(int point) { call.point = point; }
+
+}  // namespace strut::materials::library_calls
