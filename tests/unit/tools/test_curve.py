@@ -320,6 +320,7 @@ class Runs(InFolder):
         self.assertAlmostEqual(float(found["mean_stress"]) / YIELD, 1, 8)
         self.assertAlmostEqual(float(found["mean_stress_other_end"]) / YIELD, 2 / 3, 8)
         self.assertAlmostEqual(float(found["ends_apart"]), 0.4, 8)
+        self.assertAlmostEqual(float(found["densification_of_ends"]), DENSE, 8)  # of a curve of the same form
         self.history(columns)
         done = self.curve("block.xml")
         self.assertIn("both ends          not known: the history has the force at one end only", done.stdout)
