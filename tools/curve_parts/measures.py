@@ -155,6 +155,7 @@ def measures_of_ends(e, s, o):
     low, high = PLATEAUS[""]
     one_end, ends = "the history has the force at one end only", f"the curve ends at a strain of {e[-1]:.3g}"
     there = e[-1] >= high and e[0] <= low
+    dense = None if o is None else densification(e, 0.5 * (s + o))
     between = f"from {100 * low:g} to {100 * high:g} % strain"
     return [
         Measure("mean_stress", mean_between(e, s, low, high), "Pa", f"mean {between} at the end of the curve, in equilibrium or not", ends),
@@ -163,6 +164,8 @@ def measures_of_ends(e, s, o):
         Measure("ends_apart", None if o is None or not there else apart(e, s, o, low, high), "1",
                 f"difference of both ends over their mean, {between} (in equilibrium up to {MOST_APART:g}, Ravichandran & Subhash 1994)",
                 one_end if o is None else ends),
+        Measure("densification_of_ends", dense and dense[0], "1", "densification_strain of the mean of both ends, in equilibrium or not",
+                one_end if o is None else "energy over stress still rises at the end of the curve"),
     ]
 
 

@@ -55,10 +55,8 @@ def figure(path, title, times, strain, names, stresses, found, front):
         panels[1].legend(frameon=False)
     if front is not None:
         panels[2].plot(1e3 * front.arrivals, 1e3 * front.places, ".", label="front")
-        t = np.array([front.arrivals.min(), front.arrivals.max()])
-        middle = np.median(front.places), front.behind
-        panels[2].plot(1e3 * t, 1e3 * (middle[0] + front.speed * (t - np.interp(middle[0], front.places, front.arrivals))),
-                       linewidth=1, label=f"{front.speed:.4g} m/s")
+        t = front.ahead.arrivals[[0, -1]]
+        panels[2].plot(1e3 * t, 1e3 * front.speed * (t - front.start), linewidth=1, label=f"{front.speed:.4g} m/s")
         panels[2].set(xlabel="t, ms", ylabel="reference distance from the end that is hit, mm")
         panels[2].legend(frameon=False)
     for panel in panels:

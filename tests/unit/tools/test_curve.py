@@ -159,6 +159,18 @@ def shocked(times=TIMES):
     return LAYERS + V * passed, np.where(passed > 0, V, 0.0)
 
 
+def crushed_at_both_ends(plug, far, since=0.0, times=np.linspace(0, 0.95 * H / U, 4000)):
+    """Times, places and velocities of layers between that shock and another one, from the far end on since a time: ahead of
+    the first the foam moves at `plug`, and the second one, of the speed `far`, stops it. Velocities are means over layers."""
+    thick = H / len(LAYERS)
+    on = np.maximum(times - since, 0)[:, None]
+    first = np.clip((U * times[:, None] - LAYERS) / thick + 0.5, 0, 1)
+    second = np.clip((far * on - (H - LAYERS)) / thick + 0.5, 0, 1)
+    v = V * first + plug * (on > 0) * (1 - first) * (1 - second)
+    moved = np.concatenate([[0 * LAYERS], np.cumsum(0.5 * (v[1:] + v[:-1]) * np.diff(times)[:, None], axis=0)])
+    return times, LAYERS + moved, v
+
+
 class Shocks(unittest.TestCase):
     def test_a_shock_has_its_speed_strain_and_jump(self):
         front = shock.front(TIMES, *shocked())
@@ -168,6 +180,27 @@ class Shocks(unittest.TestCase):
         self.assertEqual(front.jump_of_velocity, V)
         self.assertAlmostEqual(front.strain, V / U, 9)
         self.assertAlmostEqual(front.strain_by_speed, V / U, delta=0.01)
+        self.assertAlmostEqual(front.jump_of_stress(TIMES, np.full(len(TIMES), RHO * U * V), RHO) / (RHO * U * V), 1, 2)
+
+    def test_a_foam_that_moves_ahead_of_a_shock_is_no_part_of_its_jump(self):
+        # Both ends differ by the gain of momentum, rho (U V - plug (U + far)), the shock by rho U (V - plug).
+        plug, far = 0.1 * V, 0.1 * U
+        times, places, v = crushed_at_both_ends(plug, far)
+        front = shock.front(times, places, v)
+        self.assertAlmostEqual(front.speed / U, 1, 3)
+        self.assertAlmostEqual(front.jump_of_velocity, V - plug, delta=plug / 14)  # at the last arrival few are still ahead
+        ends = np.full(len(times), RHO * (U * V - plug * (U + far)))
+        for sign in 1, -1:  # whichever end comes first in the history
+            found = front.jump_of_stress(times, sign * ends, RHO) / (RHO * U * (V - plug))
+            self.assertAlmostEqual(found, 1, delta=plug / V / 14)
+
+    def test_layers_that_the_far_end_sets_in_motion_are_not_reached_by_the_shock(self):
+        # From the middle on they move faster than the mean of both ends: all at once.
+        times, places, v = crushed_at_both_ends(0.6 * V, 0.5 * U, since=0.5 * H / U)
+        front = shock.front(times, places, v)
+        self.assertAlmostEqual(front.speed / U, 1, 3)
+        self.assertEqual(front.jump_of_velocity, V)
+        self.assertLess(front.ahead.places[-1], 0.5 * H)
 
     def test_a_bar_that_is_crushed_evenly_has_no_front(self):
         even = np.outer(np.ones(len(TIMES)), V * (1 - LAYERS / H))
@@ -287,6 +320,7 @@ class Runs(InFolder):
         self.assertAlmostEqual(float(found["mean_stress"]) / YIELD, 1, 8)
         self.assertAlmostEqual(float(found["mean_stress_other_end"]) / YIELD, 2 / 3, 8)
         self.assertAlmostEqual(float(found["ends_apart"]), 0.4, 8)
+        self.assertAlmostEqual(float(found["densification_of_ends"]), DENSE, 8)  # of a curve of the same form
         self.history(columns)
         done = self.curve("block.xml")
         self.assertIn("both ends          not known: the history has the force at one end only", done.stdout)
