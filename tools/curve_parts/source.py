@@ -124,6 +124,18 @@ def motion_of(deck, axis, times):
     return moves
 
 
+def stretch_of_sides(deck, axis, times):
+    """The name of the periodic sides across the axis, and how far they come nearer (m); None without such sides that move."""
+    for name, keys in deck.sections("Boundary Conditions").items():
+        if value_in(keys, "Type") != "Periodic Sides" or value_in(keys, "Coordinate") != "xyz"[axis]:
+            continue
+        period = float(value_in(keys, "Upper")) - float(value_in(keys, "Lower"))
+        stretches = [value_at(value_in(keys, "Stretch") or "1", t) for t in times]
+        if None not in stretches and np.ptp(stretches) > 0:
+            return name, period * (1 - np.array(stretches))
+    return None
+
+
 def shortening(deck, table, axis, words):
     """The shortening in m, positive, and how it was found."""
     letter, times = "XYZ"[axis], table["Time"]
@@ -134,6 +146,9 @@ def shortening(deck, table, axis, words):
         if None in way:
             column(table, words.shortening, "--shortening")
         return signed(way), words.shortening
+    sides = deck and stretch_of_sides(deck, axis, times)
+    if sides:  # which no displacement of points tells: they move with what is between the sides
+        return signed(sides[1]), f"the stretch of the periodic sides `{sides[0]}`"
     means = [n for n in table if re.fullmatch(rf"Mean_Displacement_{letter}\([^ ]+\)", n)]
     if len(means) in (1, 2):
         return signed(table[means[0]] - (table[means[1]] if len(means) == 2 else 0)), " less ".join(means)

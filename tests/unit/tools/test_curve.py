@@ -302,6 +302,19 @@ class Runs(InFolder):
         self.made("block.xml")
         np.testing.assert_allclose(np.array(self.table("block-curve.csv")[1:], float)[:, 0], times, atol=1e-9)
 
+    def test_periodic_sides_shorten_by_their_stretch(self):
+        """By 60 % in 1.2 s; the mean over all points, which stand between the sides, is half of that."""
+        sides = {"Type": "Periodic Sides", "Coordinate": "z", "Lower": "0", "Upper": "20e-3", "Stretch": "1 - 0.5*t"}
+        keys = "".join(f'<Parameter name="{name}" type="string" value="{value}"/>' for name, value in sides.items())
+        begin, end = DECK.index('<ParameterList name="top">'), DECK.index('<ParameterList name="History">')
+        (self.folder / "block.xml").write_text(f'{DECK[:begin]}<ParameterList name="sides">{keys}</ParameterList></ParameterList>{DECK[end:]}')
+        times = np.linspace(0, 1.2, 13)
+        self.history({"Time": times, "Reaction_Z(sides)": -4e-5 * 1e6 * times, "Mean_Displacement_Z(foam)": -5e-3 * times})
+        self.made("block.xml")
+        t, strain, stress = np.array(self.table("block-curve.csv")[1:], float).T[:3]
+        np.testing.assert_allclose(strain, 0.5 * t, atol=1e-9)  # nine digits are written
+        np.testing.assert_allclose(stress, 1e6 * t, rtol=1e-8)
+
     def test_numbers_of_a_material_need_both_ends(self):
         force = 4e-5 * stress_at(STRAIN)
         columns = {"Time": STRAIN * 20e-3 / 1e-2, "Reaction_Z(top)": -force}
