@@ -241,7 +241,8 @@ class Arrays(InFolder):
 
 class Ends(InFolder):
     def test_a_script_ends_well_with_a_run_in_the_middle(self):
-        script = "import block, strut\nrun = strut.Run(block.deck(), block.mesh())\nrun.advance(steps=2)\nkept = run.positions\n"
+        pathlib.Path("cells.py").write_text("a module of the script, of the same name as a part of the tools\n")
+        script = "import block, strut, sys\nassert 'cells' not in sys.modules\nrun = strut.Run(block.deck(), block.mesh())\nrun.advance(steps=2)\nkept = run.positions\n"
         here = os.path.dirname(os.path.abspath(__file__))
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True,
                               env={**os.environ, "PYTHONPATH": f"{here}:{os.environ['PYTHONPATH']}"})

@@ -1,15 +1,22 @@
 """Meshes and voxels from arrays of NumPy, in memory; rank 0's count."""
+import importlib.util
 import os
-import sys
 
 import numpy as np
 
 from . import _core
 from .places import TOOLS
 
-sys.path += [os.path.join(TOOLS, "shared"), os.path.join(TOOLS, "voxel")]
-import cells  # noqa: E402
 
+def part_of_the_tools(*path):
+    """By its file: a script may have modules of the same name."""
+    spec = importlib.util.spec_from_file_location("strut._" + path[-1], os.path.join(TOOLS, *path) + ".py")
+    part = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(part)
+    return part
+
+
+cells = part_of_the_tools("voxel", "cells")
 TYPES = {8: "HEX8", 4: "TET4", 1: "SPHERE"}
 
 
@@ -80,7 +87,10 @@ def voxels(solid, spacing, origin=(0, 0, 0), name="foam", gather=None, smallest=
     filled = solid.transpose()  # z, y, x, as the tools have it
     if gather:
         return gathered(filled, edges, origin, name, int(gather), smallest, is_grey)
-    nodes, ((_, _, elements, _),), sets = cells.mesh_of(filled > 0, edges, origin, "hex", name)
+    try:
+        nodes, ((_, _, elements, _),), sets = cells.mesh_of(filled > 0, edges, origin, "hex", name)
+    except OverflowError as error:
+        raise _core.Error(f"voxels: {error}") from None
     return mesh(nodes, {name: elements}, sets)
 
 

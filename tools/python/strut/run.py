@@ -157,8 +157,7 @@ def with_mesh(deck, mesh):
     deck = deck if isinstance(deck, Deck) else Deck(deck)
     points = deck.get("Discretization", {})
     if isinstance(points, dict) and "Type" not in points and "Input Mesh File" not in points:
-        named = deck.name
-        deck = Deck({**deck, "Discretization": {"Type": "Memory", **points}}, named)
+        deck = Deck({**deck, "Discretization": {"Type": "Memory", **points}}, deck.name)
     if mesh is not None and deck["Discretization"].get("Type") != "Memory":
         raise _core.Error(f"{deck.name}: Discretization names a mesh, and one is given, too; expected one of them")
     return deck
