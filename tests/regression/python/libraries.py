@@ -54,8 +54,10 @@ class Libraries(InFolder):
         plastic = one.whole("Equivalent_Plastic_Strain")
         self.assertGreater(plastic.max(), 1e-3)
         self.assertLessEqual(np.abs(plastic - other.whole("User_State_7")).max(), tolerance * plastic.max())
-        for name in ("Elastic_Energy", "Plastic_Work"):  # by the mean of two stresses a step, as the law's own ledger
-            self.assertAlmostEqual(one.history[name][-1] / other.history[name][-1], 1, delta=1e-3)
+        # This law counts by the flow stress, the built-in one by the mean stress of a step: 1.2 % apart where five load
+        # steps go from rest into flow.
+        for name in ("Elastic_Energy", "Plastic_Work"):
+            self.assertAlmostEqual(one.history[name][-1] / other.history[name][-1], 1, delta=0.02)
 
     def test_steps_are_those_of_the_built_in_law(self):
         """Round-off of some hundred steps: 1e-9."""
@@ -77,8 +79,9 @@ class Libraries(InFolder):
                                              **{"Boundary Conditions": {**conditions, "top": top}}), block.mesh())
                         for law in (built_in(), umat())]
                 self.assertSame(*runs, 1e-5)
-                one, other = (run.history["Iterations"] for run in runs)
-                self.assertLessEqual(abs(other.sum() - one.sum()), 0.1 * one.sum(), (one, other))
+                one, other = ([int(n) for n in re.findall(r"(\d+) iterations,", run.log)] for run in runs)
+                self.assertEqual(len(one), 6)  # five load steps and their sum
+                self.assertLessEqual(abs(other[-1] - one[-1]), 1, (one, other))
 
     def fault_of(self, wrong, words=(), before=()):
         block.mesh().write("block.g")
