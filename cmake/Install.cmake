@@ -30,13 +30,14 @@ install(FILES ${pages}/strut.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL
 install(FILES ${pages}/strut DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions OPTIONAL)
 
 install(DIRECTORY tools DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
-        REGEX "\\.(cpp|hpp|cmake)$|CMakeLists.txt|__pycache__|/python$|/(prepare|test|site|packages(-[a-z]+)?)$" EXCLUDE)
+        REGEX "\\.(cpp|hpp|cmake)$|CMakeLists.txt|__pycache__|/(compare|mesh|point|python)$|/(prepare|test|site|packages(-[a-z]+)?)$" EXCLUDE)
 install(DIRECTORY inputs DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
         REGEX "\\.(g|e|csv|png|log|restart|restart\\.old)$" EXCLUDE)  # what runs have left
 install(DIRECTORY materials/abaqus DESTINATION ${STRUT_SHARE}/materials)  # for laws of one's own
-install(FILES materials/strut_law.h DESTINATION ${STRUT_SHARE}/materials)
+install(FILES materials/strut_law.h materials/README.md DESTINATION ${STRUT_SHARE}/materials)
+install(FILES tools/python/README.md DESTINATION ${STRUT_SHARE}/tools/python)
 install(DIRECTORY docs DESTINATION ${STRUT_SHARE})
-install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${STRUT_SHARE})
+install(FILES README.md CONTRIBUTING.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${STRUT_SHARE})
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

@@ -109,8 +109,8 @@ struct UserLaw {
   double stored_energy(const State& state) const { return state.stored; }
   double dissipation(const State& state) const { return state.dissipated; }
   // Where it has, integration points of quadratic cells share their change of volume: flow is taken for that of metals,
-  // which keeps the volume.
-  bool has_flowed(const State& state) const { return tells_energy && state.dissipated > 0; }
+  // which keeps the volume. Flow by a strain of some 1e-10 is round-off of a law that balances its energies.
+  bool has_flowed(const State& state) const { return tells_energy && state.dissipated > 1e-12 * bulk; }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
   std::string why_no_stress() const;  // the last time that a library gave none

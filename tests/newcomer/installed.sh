@@ -1,4 +1,4 @@
-# looks_installed PREFIX: man page, completion and the module for Python of an installed tree. Read by scripts with fail.
+# looks_installed PREFIX: man page, completion, what laws of one's own need and the module for Python of an installed tree. Read by scripts with fail.
 looks_installed() {
   grep -q 'strut \\- how foams and bars deform' "$1/share/man/man1/strut.1" || fail "the man page does not say what strut does"
   grep -q '\\-\\-continue' "$1/share/man/man1/strut.1" || fail "the man page lacks options"
@@ -6,6 +6,9 @@ looks_installed() {
     COMP_WORDS=(strut --co) COMP_CWORD=1; _strut; [ "${COMPREPLY[*]}" = --continue ] || exit 1
     COMP_WORDS=(strut --check "") COMP_CWORD=2; _strut; case " ${COMPREPLY[*]} " in *" one.xml "*) ;; *) exit 1 ;; esac
     case " ${COMPREPLY[*]} " in *two.txt*) exit 1 ;; esac' bash "$1" || fail "bash does not complete options and decks"
+  for file in materials/strut_law.h materials/abaqus/ABA_PARAM.INC materials/README.md tools/python/README.md; do
+    [ -f "$1/share/strut/$file" ] || fail "$file is not installed"
+  done
   modules=$1/lib/python3/dist-packages
   [ -d "$modules/strut" ] && /usr/bin/python3 -c 'import numpy, matplotlib, netCDF4' 2> /dev/null || return 0
   cat > module.py << 'END'

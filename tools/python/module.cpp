@@ -250,6 +250,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("any", [](bool mine) { return world().max(mine ? 1.0 : 0.0) > 0; });
   module.def("finish", [] { runtime.reset(); });
   module.def("set_threads", [](int count) {
+    world();  // MPI says how many it allows
     if (const std::string problem = set_threads(count); !problem.empty()) throw Error(problem);
   });
 

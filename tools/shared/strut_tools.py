@@ -188,7 +188,7 @@ def run_guarded(main, no_memory):
             return main()
         except MemoryError:
             fail(no_memory)
-        except OSError as error:
+        except (OSError, OverflowError) as error:
             fail(str(error))
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal signals both
     signal.signal(signal.SIGTERM, lambda *_: os.kill(child, signal.SIGTERM))

@@ -1,8 +1,6 @@
 """Makes nodes, elements and the node sets of the box's faces from solid voxels."""
 import numpy as np
 
-from strut_tools import fail
-
 # Corners of a voxel in the order of Exodus' HEX8, as steps (z, y, x).
 CORNERS = [(0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0), (1, 0, 0), (1, 0, 1), (1, 1, 1), (1, 1, 0)]
 MOST_NODES = 2**31 - 1  # limit of the numbers in a mesh
@@ -47,7 +45,7 @@ def hexahedra(solid, cell, origin, block):
         taken[tuple(slice(c, c + n) for c, n in zip(corner, solid.shape))] |= solid
     count = np.count_nonzero(taken)
     if count > MOST_NODES:
-        fail(f"{count:,} nodes are more than a mesh can have ({MOST_NODES:,}): --crop, --coarsen or --elements sphere")
+        raise OverflowError(f"{count:,} nodes are more than a mesh can have ({MOST_NODES:,}): --crop, --coarsen or --elements sphere")
     number = np.cumsum(taken, dtype=np.int32)  # the n-th used node, from 1
     first = np.ravel_multi_index(np.nonzero(solid), shape)
     elements = np.empty((len(first), 8), np.int32)

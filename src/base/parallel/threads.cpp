@@ -18,6 +18,7 @@ int thread_count = 1;
 
 // The reason why there cannot be so many threads; empty if there can.
 std::string what_forbids(int count) {
+  if (count < 1 || count > most_threads) return "expected 1 to " + std::to_string(most_threads);
   if (count == 1) return "";
 #ifdef _OPENMP
   int level = MPI_THREAD_SINGLE;

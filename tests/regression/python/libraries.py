@@ -54,8 +54,10 @@ class Libraries(InFolder):
         plastic = one.whole("Equivalent_Plastic_Strain")
         self.assertGreater(plastic.max(), 1e-3)
         self.assertLessEqual(np.abs(plastic - other.whole("User_State_7")).max(), tolerance * plastic.max())
-        for name in ("Elastic_Energy", "Plastic_Work"):  # by the mean of two stresses a step, as the law's own ledger
-            self.assertAlmostEqual(one.history[name][-1] / other.history[name][-1], 1, delta=1e-3)
+        # This law counts by the flow stress, the built-in one by the mean stress of a step: 1.2 % apart where five load
+        # steps go from rest into flow.
+        for name in ("Elastic_Energy", "Plastic_Work"):
+            self.assertAlmostEqual(one.history[name][-1] / other.history[name][-1], 1, delta=0.02)
 
     def test_steps_are_those_of_the_built_in_law(self):
         """Round-off of some hundred steps: 1e-9."""
@@ -77,8 +79,39 @@ class Libraries(InFolder):
                                              **{"Boundary Conditions": {**conditions, "top": top}}), block.mesh())
                         for law in (built_in(), umat())]
                 self.assertSame(*runs, 1e-5)
-                one, other = (run.history["Iterations"] for run in runs)
-                self.assertLessEqual(abs(other.sum() - one.sum()), 0.1 * one.sum(), (one, other))
+                one, other = ([int(n) for n in re.findall(r"(\d+) iterations,", run.log)] for run in runs)
+                self.assertEqual(len(one), 6)  # five load steps and their sum
+                self.assertLessEqual(abs(other[-1] - one[-1]), 1, (one, other))
+
+    def test_with_substeps_it_has_the_same_bits_when_continued_and_on_two_ranks(self):
+        """The foot is 16 times as stiff and takes steps of its own."""
+        one = block.mesh()
+        elements = one.blocks["block"]
+        foot = one.nodes[elements].mean(axis=1)[:, 2] < block.SPACING
+        mesh = strut.mesh(one.nodes, {"soft": elements[~foot], "hard": elements[foot]}, one.sets)
+        mesh.write("block.g")
+        stiff = {**umat(), "Young's Modulus": 16 * E, "Constants": [16 * E, NU, YIELD, HARDENING, 0]}
+        blocks = {name: {"Block Names": name, "Material": name, "Horizon Factor": 1.75} for name in ("soft", "hard")}
+        deck = block.deck(Materials={"soft": umat(), "hard": stiff}, Blocks=blocks, Restart={"Filename": "block.restart"})
+        output = {"Output Interval": 1e-6, "Output Variables": {"Displacement": True, "Cauchy_Stress": True, "User_State_7": True}}
+        whole = strut.run(strut.Deck({**deck, "Output": {**output, "Output Filename": "one.e"}}), mesh)
+        self.assertIn("the stiffest points were subcycled", whole.log)
+        self.assertGreater(whole.whole("User_State_7").max(), 1e-3)
+        run = strut.Run(deck, mesh)
+        run.advance(steps=8)
+        run.end()
+        again = strut.run(deck, mesh, continued=True)
+        self.assertGreater(whole.steps, 12)
+        for name in ("Cauchy_Stress", "User_State_1", "User_State_7"):
+            np.testing.assert_array_equal(again.fields[name], whole.fields[name], err_msg=name)
+        if "STRUT_MPIRUN" in os.environ:
+            two = strut.Deck({**deck, "Output": {**output, "Output Filename": "two.e"}, "History": None,
+                              "Discretization": {"Type": "Exodus", "Input Mesh File": "block.g"}})
+            pathlib.Path("deck.xml").write_text(two.to_xml())
+            for command in ([*os.environ["STRUT_MPIRUN"].split(), "-n", "2", os.environ["STRUT"], "deck.xml"],
+                            [os.environ["STRUT_COMPARE"], "one.e", "two.e", "--relative", "0"]):
+                done = subprocess.run(command, capture_output=True, text=True, env=environment())
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def fault_of(self, wrong, words=(), before=()):
         block.mesh().write("block.g")

@@ -178,7 +178,21 @@ class Errors(InFolder):
                              (lambda: strut.voxels(np.zeros((2, 2, 2)), 1e-3), "none of them solid"),
                              (lambda: strut.voxels(-np.ones((2, 2, 2), int), 1e-3), "none of them solid"),
                              (lambda: strut.voxels(np.full((2, 2, 2), "1"), 1e-3), "an array of type"),
-                             (lambda: strut.voxels(np.ones((2, 2, 2)), 0), "expected one or three numbers > 0")):
+                             (lambda: strut.voxels(np.ones((2, 2, 2)), 0), "expected one or three numbers > 0"),
+                             (lambda: strut.voxels(np.ones((2, 2, 2)), (1e-3, 2e-3)), "expected one or three numbers > 0"),
+                             (lambda: strut.voxels(np.ones((2, 2, 2)), 1e-3, origin=(0, 0)), "expected three numbers"),
+                             (lambda: strut.voxels(np.arange(8).reshape(2, 2, 2), 1e-3), "several values; expected truth values"),
+                             (lambda: strut.voxels(np.ones((4, 4, 4)), 1e-3, gather=2.5), "expected a whole number, 1 to 16")):
+            with self.assertRaisesRegex(strut.Error, words):
+                wrong()
+
+    def test_what_is_of_another_kind_is_refused(self):
+        run = strut.Run(block.deck(), block.mesh())
+        for wrong, words in ((lambda: strut.run(["deck"]), "a deck of type list"),
+                             (lambda: strut.check(block.deck(), block.solid()), "mesh: ndarray; expected what strut.voxels"),
+                             (lambda: run.advance(steps=-1), "steps: -1; expected a whole number, 0 or more"),
+                             (lambda: run.watch(print, every=0), "every: 0; expected a whole number, 1 or more"),
+                             (lambda: strut.set_threads(0), "cannot be 0 threads a rank: expected 1 to 1024")):
             with self.assertRaisesRegex(strut.Error, words):
                 wrong()
 
@@ -240,8 +254,13 @@ class Arrays(InFolder):
 
 
 class Ends(InFolder):
+    def test_threads_may_be_the_first_that_a_script_sets(self):
+        done = subprocess.run([sys.executable, "-c", "import strut; strut.set_threads(2)"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     def test_a_script_ends_well_with_a_run_in_the_middle(self):
-        script = "import block, strut\nrun = strut.Run(block.deck(), block.mesh())\nrun.advance(steps=2)\nkept = run.positions\n"
+        pathlib.Path("cells.py").write_text("a module of the script, of the same name as a part of the tools\n")
+        script = "import block, strut, sys\nassert 'cells' not in sys.modules\nrun = strut.Run(block.deck(), block.mesh())\nrun.advance(steps=2)\nkept = run.positions\n"
         here = os.path.dirname(os.path.abspath(__file__))
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True,
                               env={**os.environ, "PYTHONPATH": f"{here}:{os.environ['PYTHONPATH']}"})

@@ -29,7 +29,6 @@ C     hardening modulus, and what it does wrong (0: nothing) once it has flowed.
       DO K1 = NDI + 1, NTENS
         DDSDDE(K1, K1) = EG
       END DO
-      WORK = DOT_PRODUCT(STRESS, DSTRAN)/2D0
       STRESS = STRESS + MATMUL(DDSDDE, DSTRAN)
       EELAS = EELAS + DSTRAN
       CALL SINV(STRESS, SHYDRO, SMISES, NDI, NSHR)
@@ -42,6 +41,7 @@ C     hardening modulus, and what it does wrong (0: nothing) once it has flowed.
         EELAS(1:NDI) = EELAS(1:NDI) - 1.5D0*FLOW(1:NDI)*DEQPL
         EELAS(NDI+1:NTENS) = EELAS(NDI+1:NTENS) - 3D0*FLOW(NDI+1:NTENS)*DEQPL
         EQPLAS = EQPLAS + DEQPL
+        SPD = SPD + DEQPL*(SYIELD + PROPS(4)*DEQPL/2D0)
         WRONG = PROPS(5)
         IF (WRONG .EQ. 1D0) STOP
         IF (WRONG .EQ. 2D0) CALL XIT
@@ -52,9 +52,7 @@ C     hardening modulus, and what it does wrong (0: nothing) once it has flowed.
         IF (WRONG .EQ. 7D0) STATEV(10**9) = 1D0
         IF (WRONG .EQ. 8D0) CALL DESCEND(STRESS, DEPTH)
       END IF
-      SPD = SPD + WORK + DOT_PRODUCT(STRESS, DSTRAN)/2D0 + SSE
       SSE = DOT_PRODUCT(STRESS, EELAS)/2D0
-      SPD = SPD - SSE
       STATEV(1:NTENS) = EELAS
       STATEV(1 + NTENS) = EQPLAS
       END

@@ -20,6 +20,8 @@ class Deck(dict):
                     source = _core.parsed(file.read(), name)
             except (OSError, UnicodeDecodeError) as error:
                 raise _core.Error(f"{name}: the deck cannot be read: {getattr(error, 'strerror', None) or error}") from None
+        if not isinstance(source, dict):
+            raise _core.Error(f"a deck of type {type(source).__name__}; expected a dictionary, or the name of a file")
         super().__init__(source)
         self.name = name
 

@@ -1,15 +1,22 @@
 """Meshes and voxels from arrays of NumPy, in memory; rank 0's count."""
+import importlib.util
 import os
-import sys
 
 import numpy as np
 
 from . import _core
 from .places import TOOLS
 
-sys.path += [os.path.join(TOOLS, "shared"), os.path.join(TOOLS, "voxel")]
-import cells  # noqa: E402
 
+def part_of_the_tools(*path):
+    """By its file: a script may have modules of the same name."""
+    spec = importlib.util.spec_from_file_location("strut._" + path[-1], os.path.join(TOOLS, *path) + ".py")
+    part = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(part)
+    return part
+
+
+cells = part_of_the_tools("voxel", "cells")
 TYPES = {8: "HEX8", 4: "TET4", 1: "SPHERE"}
 
 
@@ -70,17 +77,27 @@ def voxels(solid, spacing, origin=(0, 0, 0), name="foam", gather=None, smallest=
         raise _core.Error(f"voxels: an array of type {solid.dtype}; expected truth values, or numbers from 0 to 1")
     if solid.ndim != 3 or not np.any(solid > 0):
         raise _core.Error(f"voxels: an array of shape {solid.shape}{'' if np.any(solid > 0) else ', none of them solid'}; expected x, y, z")
-    edges = np.broadcast_to(np.asarray(spacing, float), 3)
-    if not (np.all(edges > 0) and np.all(np.isfinite(edges))):
+    edges, lower = np.asarray(spacing, float), np.asarray(origin, float)
+    if edges.shape not in ((), (1,), (3,)) or not (np.all(edges > 0) and np.all(np.isfinite(edges))):
         raise _core.Error(f"voxels: a spacing of {spacing}; expected one or three numbers > 0, in m")
+    if lower.shape != (3,) or not np.all(np.isfinite(lower)):
+        raise _core.Error(f"voxels: an origin of {origin}; expected three numbers, in m")
+    edges = np.broadcast_to(edges, 3)
+    if solid.dtype.kind in "iu" and np.ptp(solid[solid > 0]):
+        raise _core.Error("voxels: whole numbers of several values; expected truth values, as of image > threshold")
+    if gather is not None and (not isinstance(gather, (int, np.integer)) or not 1 <= gather <= 16):
+        raise _core.Error(f"voxels: gather={gather!r}; expected a whole number, 1 to 16")
     is_grey = np.issubdtype(solid.dtype, np.floating) and not np.all((solid == 0) | (solid == 1))
     if is_grey and not gather:
         raise _core.Error("voxels: parts of voxels that are solid need gather=N; expected truth values, or 0 and 1")
     checked(name)
     filled = solid.transpose()  # z, y, x, as the tools have it
     if gather:
-        return gathered(filled, edges, origin, name, int(gather), smallest, is_grey)
-    nodes, ((_, _, elements, _),), sets = cells.mesh_of(filled > 0, edges, origin, "hex", name)
+        return gathered(filled, edges, lower, name, gather, smallest, is_grey)
+    try:
+        nodes, ((_, _, elements, _),), sets = cells.mesh_of(filled > 0, edges, lower, "hex", name)
+    except OverflowError as error:
+        raise _core.Error(f"voxels: {error}") from None
     return mesh(nodes, {name: elements}, sets)
 
 

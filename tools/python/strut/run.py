@@ -90,6 +90,8 @@ class Run:
     def advance(self, steps=None, until=None):
         """So many steps (load steps of equilibria), or to the first one at or after a time, s, or to the end. True if
         steps are left."""
+        if steps is not None:
+            steps = whole_number(steps, "steps", 0)
         return self.telling(self.core.advance, steps, until)
 
     def advance_to(self, time):
@@ -98,9 +100,8 @@ class Run:
     def watch(self, callback, every, until=None):
         """Goes on like advance(until=…), and calls callback(run) after so many steps each; False stops there, and the
         run may go on later. An error of a callback on one rank is one on all."""
-        if every is None or int(every) < 1:
-            raise _core.Error(f"every: {every!r}; expected a number of steps > 0")
-        while self.advance(int(every), until) and (until is None or self.time < until):
+        every = whole_number(every, "every", 1)
+        while self.advance(every, until) and (until is None or self.time < until):
             error = goes_on = None
             try:
                 goes_on = callback(self) is not False
@@ -152,13 +153,20 @@ def check(deck, mesh=None):
         raise _core.Error(problems)
 
 
+def whole_number(number, user, least):
+    if isinstance(number, bool) or not isinstance(number, (int, np.integer)) or number < least:
+        raise _core.Error(f"{user}: {number!r}; expected a whole number, {least} or more")
+    return int(number)
+
+
 def with_mesh(deck, mesh):
     """The deck, whose Type is Memory where it names no mesh."""
+    if not isinstance(mesh, (_core.Mesh, type(None))):
+        raise _core.Error(f"mesh: {type(mesh).__name__}; expected what strut.voxels, strut.mesh or strut.recipe give")
     deck = deck if isinstance(deck, Deck) else Deck(deck)
     points = deck.get("Discretization", {})
     if isinstance(points, dict) and "Type" not in points and "Input Mesh File" not in points:
-        named = deck.name
-        deck = Deck({**deck, "Discretization": {"Type": "Memory", **points}}, named)
+        deck = Deck({**deck, "Discretization": {"Type": "Memory", **points}}, deck.name)
     if mesh is not None and deck["Discretization"].get("Type") != "Memory":
         raise _core.Error(f"{deck.name}: Discretization names a mesh, and one is given, too; expected one of them")
     return deck
