@@ -7,6 +7,7 @@
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
 #include "deck/check.hpp"
+#include "deck/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
 #include "deck/sections/inertia.hpp"
 #include "deck/sections/materials.hpp"
@@ -20,6 +21,18 @@ namespace strut::deck {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Equilibria have times of their own, some thousand times as long as those of steps.
+void tell_of_long_intervals(const Deck& deck, Problems& problems) {
+  const double duration = deck.next_solver->duration();
+  const auto tell = [&](const std::string& path, const auto& sink) {
+    if (sink.parts > 0 || !sink.interval || *sink.interval < duration) return;
+    problems.note(path, "is " + to_text(*sink.interval) + " s, also in Solver 2, which lasts " + to_text(duration) +
+                            " s: of its steps only the last one is written");
+  };
+  tell("Output > Output Interval", deck.output);
+  tell("History > Interval", deck.history);
+}
 
 Deck build(const Values& values, const fs::path& file, Problems& problems) {
   Deck deck;
@@ -39,10 +52,9 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   deck.next_solver = read_next_solver(values, deck.solver, problems);
   const bool steps_follow = deck.next_solver.has_value();
   check_quasi_static(deck.solver, deck.conditions, deck.contact_models, deck.blocks, steps_follow, problems);
-  Solver whole = deck.solver;
-  if (steps_follow) whole.final_time = deck.next_solver->final_time;
-  deck.output = read_output(values, whole, problems);
-  deck.history = read_history(values, whole, problems);
+  deck.output = read_output(values, deck.solver, problems);
+  deck.history = read_history(values, deck.solver, problems);
+  if (steps_follow) tell_of_long_intervals(deck, problems);
   add_probes(values, deck.node_sets);
   deck.restart = read_restart(values, file, deck.output.enabled, problems);
   if (steps_follow && deck.restart.asked_for && deck.restart.enabled) {

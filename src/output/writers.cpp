@@ -51,6 +51,7 @@ History::History(const deck::Deck& deck, const OutputVariables& variables)
       means_(variables.means),
       contacts_(variables.contacts),
       has_means_(!deck.solver.quasi_static),
+      has_means_later_(deck.next_solver.has_value()),
       means_of_forces_(reactions_.size() + contacts_.size(), deck.solver.initial_time) {}
 
 void History::open(const Body& body) {
@@ -72,14 +73,15 @@ void History::open(const Body& body) {
                                          {"Momentum_Y", "kg m/s"},
                                          {"Momentum_Z", "kg m/s"}};
   for (const Extreme& extreme : extremes_) columns.push_back({extreme.name(), extreme.unit()});
-  const auto unit = [this](bool is_instant) { return is_instant || !has_means_ ? "N" : "N (mean)"; };
+  const std::string of_forces = has_means_ ? "N (mean)" : has_means_later_ ? "N (mean in explicit steps)" : "N";
+  const auto unit = [&](bool is_instant) { return is_instant ? "N" : of_forces; };
   for (const ReactionComponent& reaction : reactions_) columns.push_back({reaction.name, unit(reaction.is_instant)});
   for (const CrackColumn& column : crack_columns_) columns.push_back({column.name, column.is_speed ? "m/s" : "m"});
   for (const Mean& mean : means_) {
     for (std::string& name : mean.columns()) columns.push_back({std::move(name), mean.unit()});
   }
   for (const ContactComponent& contact : contacts_) columns.push_back({contact.name, unit(contact.is_instant)});
-  if (rows_) rows_->columns = columns;
+  if (rows_ && rows_->columns.empty()) rows_->columns = columns;  // as in the file, which other solvers go on with
   if (!path_.empty()) file_.emplace(path_, body.domain.communicator, columns, before_, sum_);
 }
 

@@ -85,6 +85,7 @@ class History {
   std::vector<Mean> means_;
   std::vector<ContactComponent> contacts_;
   bool has_means_;              // false for equilibria: all forces are those at the time
+  bool has_means_later_;        // explicit steps follow the equilibria
   MeanForces means_of_forces_;  // of reactions_, then contacts_
   std::int64_t before_ = 0;     // bytes before the restart
   double sum_ = 0;              // their checksum

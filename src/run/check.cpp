@@ -96,8 +96,9 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
   std::ostringstream text;
   text << steps << " load steps; the first one ";
   if (!found) {
-    text << "takes more than " << as_duration(first) << "\nestimated time more than " << as_duration(steps * first);
-    return text.str() + "\n";
+    text << "takes more than " << as_duration(first) << "\nestimated time more than " << as_duration(steps * first)
+         << "\n";
+    return text.str();
   }
   text << "took " << as_duration(first) << " and " << solver.iterations() << " iterations\n";
   double second = first;
@@ -106,6 +107,10 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
     second = seconds_since(start) - first;
   }
   text << "estimated time " << range(steps * std::min(first, second), most * steps * std::max(first, second)) << "\n";
+  if (deck.next_solver) {
+    const deck::Deck next = next_of(deck, solver.take_contact(), scene);
+    text << "Solver 2, with the body after these load steps:\n" << check_steps(next, scene);
+  }
   return text.str();
 }
 

@@ -105,6 +105,28 @@ bool is_initial_displacement(const deck::Condition& condition) {
   return std::holds_alternative<InitialDisplacement>(condition.kind);
 }
 
+// Explicit steps after equilibria: their errors and warnings come before the hours that equilibria may take.
+std::string look_at_next_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
+                               deck::Problems& problems) {
+  deck::Deck next = deck;
+  next.solver = *deck.next_solver;
+  Conditions ends;
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const auto look = [&]<class Type>(const Type& prototype) {
+      check_values(prototype.values_at_points(), points[c], next.solver.initial_time, body.domain);
+      if constexpr (std::is_same_v<Type, NonReflectingEnd>)
+        ends.add(prototype.on(points[c], static_cast<int>(c), body));
+    };
+    try {
+      std::visit(look, deck.conditions[c].kind);
+    } catch (const Error& error) {
+      problems.add(error.what());
+    }
+  }
+  check_open_ends(next, ends, body, problems);
+  return sudden_motions(next, points, body) + sampled_pulses(next, points, body);
+}
+
 // `place`: index of the condition in the deck.
 void add_condition(const deck::Condition& condition, int place, std::vector<int> points, const SharedPoints& shared,
                    const Times& times, Scene& scene) {
@@ -153,8 +175,9 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
   scene.warnings += let_the_last_count(deck, scene.body, points);
   check_contradictions(deck, points, scene.body, problems);
   if (!deck.start_from) scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
-  scene.warnings += sudden_motions(deck, points, scene.body);
-  scene.warnings += sampled_pulses(deck, points, scene.body);
+  if (mesh_time == deck.solver.initial_time) {  // else they have been told before the equilibria
+    scene.warnings += sudden_motions(deck, points, scene.body) + sampled_pulses(deck, points, scene.body);
+  }
   // Held points: for a body that continues behind a plane as its mirror image, only the points on the plane.
   for (std::size_t c = 0; c < points.size(); ++c) {
     const auto* plane = std::get_if<SymmetryPlane>(&deck.conditions[c].kind);
@@ -174,8 +197,10 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
     scene.body.domain.halo.exchange_places(scene.body.domain.sites);
   }
   raise_together(communicator, problems.text(deck.file.string()));
-  take_off_what_is_beyond_ends(deck, scene, problems);
+  check_open_ends(deck, scene.conditions, scene.body, problems);
+  if (deck.next_solver) scene.warnings += look_at_next_steps(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));
+  take_off_what_is_beyond_ends(scene.conditions, scene.body);
 }
 
 void begin_from_here(const deck::Deck& deck, bool with_initial_velocities,

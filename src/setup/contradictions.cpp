@@ -88,15 +88,17 @@ struct Times {
   double middle(int k) const { return start + (k + 0.5) * step(); }
 };
 
-// Targets of a hold at the end of each interval: velocities at mid-interval, or displacements.
-std::vector<double> targets(const Hold& hold, const Vector& X, const Times& times, bool as_displacements) {
+// Targets of a hold at the end of each interval: velocities at mid-interval, or displacements. `summed`: these since
+// the start, as sums of velocities are.
+std::vector<double> targets(const Hold& hold, const Vector& X, const Times& times, bool as_displacements, bool summed) {
   std::vector<double> all(times.count, 0);
   if (!hold.value) return all;
   const auto at = [&](double t) { return hold.value->evaluate(X[0], X[1], X[2], t); };
+  const double before = summed && !hold.is_velocity ? at(times.start) : 0;
   double sum = 0;
   for (int k = 0; k < times.count; ++k) {
     if (!hold.is_velocity) {
-      all[k] = at(times.start + (k + 1) * times.step());
+      all[k] = at(times.start + (k + 1) * times.step()) - before;
     } else {
       const double velocity = at(times.middle(k));
       all[k] = as_displacements ? sum += velocity * times.step() : velocity;
@@ -126,7 +128,7 @@ std::optional<Pair> contradiction(const Holds& holds, const Vector& X, const Tim
   const bool summed = as_displacements && std::any_of(holds.begin(), holds.end(),
                                                       [](const Hold& one) { return one.is_velocity && one.value; });
   std::vector<std::vector<double>> wanted;
-  for (const Hold& one : holds) wanted.push_back(targets(one, X, times, as_displacements));
+  for (const Hold& one : holds) wanted.push_back(targets(one, X, times, as_displacements, summed));
   for (int k = 0; k < times.count; ++k) {
     Tensor free = Tensor::Identity();
     Vector motion = Vector::Zero();
@@ -202,10 +204,14 @@ SharedPoints shared_points(const deck::Deck& deck, const PointsOfConditions& poi
 void check_contradictions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
                           deck::Problems& problems) {
   const double start = deck.solver.initial_time;
-  tell(contradicting_points(shared_points(deck, points), body, {start, deck.solver.final_time, looks}), "motion", deck,
-       body, problems);
+  const SharedPoints held = shared_points(deck, points);
+  tell(contradicting_points(held, body, {start, deck.solver.final_time, looks}), "motion", deck, body, problems);
+  const deck::Solver& steps = deck.next_solver ? *deck.next_solver : deck.solver;  // which initial velocities begin
+  if (deck.next_solver)
+    tell(contradicting_points(held, body, {steps.initial_time, steps.final_time, looks}), "motion", deck, body,
+         problems);
   tell(contradicting_points(shared(holds_by_condition(deck, initial_holds_of<InitialVelocity>), points), body,
-                            {start, start, 1}),
+                            {steps.initial_time, steps.initial_time, 1}),
        "initial velocity", deck, body, problems);
   tell(contradicting_points(shared(holds_by_condition(deck, initial_holds_of<InitialDisplacement>), points), body,
                             {start, start, 1}),

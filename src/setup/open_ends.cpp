@@ -45,30 +45,42 @@ double part_between_planes(const Domain& domain, int i) {
 
 struct EndsOfPoint {
   std::vector<Vector> normals;  // outward
-  int last;                     // index in the deck of the last one
+  std::vector<bool> inside;     // whether the body goes on beyond the end
+  std::vector<int> places;      // indices in the deck
 };
 
-}  // namespace
-
-void take_off_what_is_beyond_ends(const deck::Deck& deck, Scene& scene, deck::Problems& problems) {
-  Body& body = scene.body;
+std::map<int, EndsOfPoint> ends_of(const Conditions& conditions, const Body& body) {
   std::map<int, EndsOfPoint> ends;
-  std::vector<std::vector<int>> inside(deck.conditions.size()), without_inertia(deck.conditions.size());
-  scene.conditions.visit([&]<class Type>(const Type& one) {
+  conditions.visit([&]<class Type>(const Type& one) {
     if constexpr (std::is_same_v<Type, NonReflectingEnd>) {
       for (const NonReflectingEnd::Drag& drag : one.drags) {
         const Extent extent = extent_along(one.normal, body.domain, drag.point);
-        if (extent.is_inside()) inside[one.place].push_back(drag.point);
-        ends[drag.point].normals.push_back(extent.sum > 0 ? Vector(-one.normal) : one.normal);
-        ends[drag.point].last = one.place;
+        EndsOfPoint& of_point = ends[drag.point];
+        of_point.inside.push_back(extent.is_inside());
+        of_point.normals.push_back(extent.sum > 0 ? Vector(-one.normal) : one.normal);
+        of_point.places.push_back(one.place);
       }
     }
   });
-  for (const auto& [i, of_point] : ends) {
+  return ends;
+}
+
+}  // namespace
+
+void take_off_what_is_beyond_ends(const Conditions& conditions, Body& body) {
+  for (const auto& [i, of_point] : ends_of(conditions, body)) {
     const double whole_cell = part_between_planes(body.domain, i) * std::pow(body.domain.cloud.spacings[i], 3);
-    const double cell = part_within(of_point.normals) * whole_cell;
-    if (cell == 0) without_inertia[of_point.last].push_back(i);
-    body.density[i] *= std::min(1.0, cell / body.domain.volume(i));
+    body.density[i] *= std::min(1.0, part_within(of_point.normals) * whole_cell / body.domain.volume(i));
+  }
+}
+
+void check_open_ends(const deck::Deck& deck, const Conditions& conditions, const Body& body, deck::Problems& problems) {
+  std::vector<std::vector<int>> inside(deck.conditions.size()), without_inertia(deck.conditions.size());
+  for (const auto& [i, of_point] : ends_of(conditions, body)) {
+    for (std::size_t e = 0; e < of_point.places.size(); ++e) {
+      if (of_point.inside[e]) inside[of_point.places[e]].push_back(i);
+    }
+    if (part_within(of_point.normals) == 0) without_inertia[of_point.places.back()].push_back(i);
   }
   const std::vector<FoundPoints> inner = found_points(body, inside), empty = found_points(body, without_inertia);
   for (std::size_t c = 0; c < deck.conditions.size(); ++c) {

@@ -57,6 +57,11 @@ std::string objection(const PeriodicSides& sides, const Eigen::AlignedBox3d& box
   return text.str();
 }
 
+// The surface of a point's cell that faces upward along the axis, in squares of its spacing.
+double surface_along(const PointCloud& cloud, int axis, int i) {
+  return cloud.shapes.empty() ? 0 : cloud.shapes[i].surface[axis] / std::pow(cloud.spacings[i], 2);
+}
+
 }  // namespace
 
 std::vector<Mirror> sides_of_periods(const deck::Deck& deck) {
@@ -127,9 +132,11 @@ std::string open_sides(const deck::Deck& deck, const Domain& domain) {
   if (domain.periods.empty()) return warnings;
   std::vector<Vector> shifts(domain.sites.size(), Vector::Zero());
   for (const ImagePoint& image : domain.halo.images()) shifts[image.ghost] = image.by.period;
+  const bool any_quadratic = std::ranges::any_of(deck.materials, is_quadratic);
   for (const Period& period : domain.periods) {
-    // Elements with a node on the upper side, those of them without a neighbor above, all that have nodes.
-    double counts[] = {0, 0, 0};
+    // Elements with a node on the upper side, those of them without a neighbor above, all that have nodes; those with a
+    // neighbor above whose surface faces it.
+    double counts[] = {0, 0, 0, 0};
     for (int i = 0; i < domain.owned && !domain.cloud.shared_nodes.empty(); ++i) {
       const auto is_on_side = [&](std::int64_t node) { return (node >> (first_plane_bit + period.axis) & 1) != 0; };
       counts[2] += domain.cloud.shared_nodes[i].empty() ? 0 : 1;
@@ -137,6 +144,7 @@ std::string open_sides(const deck::Deck& deck, const Domain& domain) {
       bool meets = false;
       domain.families.for_each(i, [&](int j) { meets = meets || shifts[j][period.axis] > 0; });
       ++counts[0], counts[1] += meets ? 0 : 1;
+      counts[3] += meets && surface_along(domain.cloud, period.axis, i) > 0.1 ? 1 : 0;
     }
     domain.communicator.sum(counts);
     if (counts[2] > 0 && counts[0] == 0) {
@@ -145,8 +153,15 @@ std::string open_sides(const deck::Deck& deck, const Domain& domain) {
           ": no element has a node on the upper side, which cuts elements or lies beyond the mesh; expected sides "
           "at the faces of the mesh");
     }
-    if (counts[1] == 0) continue;
     std::ostringstream text;
+    if (any_quadratic && counts[3] > 0.5 * (counts[0] - counts[1])) {  // a staircase has fewer
+      text << "WARNING: " << path_of(deck, period.number) << ": " << counts[3] << " of " << counts[0]
+           << " partly filled elements at the upper side bring surfaces that face it, though the body goes on there: "
+              "their mesh was not made to repeat; quadratic correspondence is less accurate in them\n";
+      warnings += text.str();
+      text.str("");
+    }
+    if (counts[1] == 0) continue;
     text
         << "WARNING: " << path_of(deck, period.number) << ": " << counts[1] << " of " << counts[0]
         << " elements at the upper side have no neighbor behind it, and end there; expected a mesh whose faces at both "

@@ -6,6 +6,7 @@
 #include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "deck/problems.hpp"
+#include "deck/sections/several_sections.hpp"
 #include "mechanics/make_body.hpp"
 #include "setup/blocks.hpp"
 #include "setup/conditions.hpp"
@@ -84,11 +85,13 @@ Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicat
   return scene;
 }
 
-deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& scene) {
+deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, Scene& scene) {
   deck::Deck next = deck;
   next.solver = *deck.next_solver;
   next.next_solver.reset();
-  next.start_from.reset();                                          // it is the equilibria that began there
+  next.start_from.reset();  // it is the equilibria that began there
+  deck::take_default_interval(next.solver.duration(), next.output);
+  deck::take_default_interval(next.solver.duration(), next.history);
   next.solver.rebalance = std::numeric_limits<double>::infinity();  // another partition begins with a body at rest
   if (!next.solver.keeps_velocities) std::ranges::fill(scene.body.velocity, Vector::Zero());
   scene.body.previous_velocity = *scene.body.velocity;
@@ -97,9 +100,14 @@ deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& 
   scene.warnings.clear();
   scene.quasi_static.reset();
   scene.control = control_of(next);
-  add_conditions(next, deck.solver.initial_time, scene, scene.body.domain.communicator);
   scene.contact = std::move(contact);
   scene.fracture = fracture_of(scene.body);
+  return next;
+}
+
+deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& scene) {
+  const deck::Deck next = next_of(deck, std::move(contact), scene);
+  add_conditions(next, deck.solver.initial_time, scene, scene.body.domain.communicator);
   return next;
 }
 

@@ -41,5 +41,7 @@ Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicat
 // body, as it is, with conditions and bonds to break from now on. `contact`: of the equilibria, whose touching
 // distances stay. Returns the deck of these steps; scene.warnings are theirs.
 deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& scene);
+// The same without conditions, which the place of the body, as it is, may not suit.
+deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, Scene& scene);
 
 }  // namespace strut

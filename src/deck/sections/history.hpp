@@ -35,6 +35,7 @@ struct History {
   std::filesystem::path file;  // empty: its rows stay in memory
   std::optional<int> frequency;
   std::optional<double> interval;
+  int parts = 0;                       // of the solver's time, if the deck gives neither
   std::vector<std::string> variables;  // e.g. "Max_Displacement"; checked by output_variables_of (output/variables.cpp)
   std::vector<WatchedCrack> cracks;
   std::vector<Profile> profiles;

@@ -16,6 +16,7 @@ struct Output {
   std::filesystem::path file;          // relative to the working folder in the deck, ".e" appended if it has no suffix
   std::optional<int> frequency;        // every so many steps
   std::optional<double> interval;      // or every so many seconds of the simulation
+  int parts = 0;                       // of the solver's time, if the deck gives neither
   std::vector<std::string> variables;  // checked by output_variables_of (output/variables.cpp)
 };
 

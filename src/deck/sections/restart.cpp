@@ -50,7 +50,7 @@ Restart read_restart(const Values& deck, const std::filesystem::path& deck_file,
                   .file = given_file ? std::filesystem::path(*given_file) : of_deck,
                   .resumes = values[resumes],
                   .minutes = values[minutes]};
-  read_when(values, when, 0, restart, problems);
+  read_when(values, when, restart, problems);
   return restart;
 }
 

@@ -26,12 +26,12 @@ int find_name(const Values& section, const Key& key, const std::string& wanted, 
 namespace {
 
 std::string without_either(int parts) {
-  return parts > 0 ? " Default 1/" + std::to_string(parts) + " of the run." : "";
+  return parts > 0 ? " Default 1/" + std::to_string(parts) + " of the solver's time." : "";
 }
 
 }  // namespace
 
-WhenKeys::WhenKeys(const std::string& prefix, int parts_of_a_run)
+WhenKeys::WhenKeys(const std::string& prefix, int parts_of_a_solver)
     : frequency({.name = prefix + "Frequency",
                  .unit = "steps",
                  .range = {.low = 1},
@@ -39,8 +39,8 @@ WhenKeys::WhenKeys(const std::string& prefix, int parts_of_a_run)
       interval({.name = prefix + "Interval",
                 .unit = "s",
                 .range = positive,
-                .meaning = "Simulated time between two." + without_either(parts_of_a_run)}),
-      parts(parts_of_a_run) {}
+                .meaning = "Simulated time between two." + without_either(parts_of_a_solver)}),
+      parts(parts_of_a_solver) {}
 
 Key without_effect(Key key, const std::string& why) {
   key.meaning = "Accepted for Peridigm's decks; no effect: " + why + ".";

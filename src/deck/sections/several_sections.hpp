@@ -37,19 +37,31 @@ struct WhenKeys {
   OptionalKey<int> frequency;
   OptionalKey<double> interval;
 
-  // "Output Frequency", "Output Interval". Without both: an interval with `parts_of_a_run` per run, if that is not 0.
-  explicit WhenKeys(const std::string& prefix = "", int parts_of_a_run = 0);
+  // "Output Frequency", "Output Interval". Without both: an interval with `parts_of_a_solver` in the time of each
+  // solver, if that is not 0.
+  explicit WhenKeys(const std::string& prefix = "", int parts_of_a_solver = 0);
 
   int parts;
 };
 
-// Reads into members with these names. `duration`: of the run, s.
+// Reads into members with these names.
 template <class Sink>
-void read_when(const Values& values, const WhenKeys& keys, double duration, Sink& sink, Problems& problems) {
+void read_when(const Values& values, const WhenKeys& keys, Sink& sink, Problems& problems) {
   check_one_of(values, keys.frequency, keys.interval, problems);
   sink.frequency = values[keys.frequency];
   if (!sink.frequency) sink.interval = values[keys.interval];
-  if (!sink.frequency && !sink.interval && keys.parts > 0) sink.interval = 1.0 / keys.parts * duration;
+}
+
+// The same where there is a default, a part of the solver's time. `duration`: of that, s.
+template <class Sink>
+void take_default_interval(double duration, Sink& sink) {
+  if (sink.parts > 0) sink.interval = 1.0 / sink.parts * duration;
+}
+template <class Sink>
+void read_when(const Values& values, const WhenKeys& keys, double duration, Sink& sink, Problems& problems) {
+  read_when(values, keys, sink, problems);
+  if (!sink.frequency && !sink.interval) sink.parts = keys.parts;
+  take_default_interval(duration, sink);
 }
 
 // Lists of output variables, whose keys are names of variables.

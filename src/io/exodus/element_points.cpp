@@ -6,7 +6,7 @@
 #include "base/errors.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/mesh_points.hpp"
-#include "io/exodus/surface.hpp"
+#include "io/exodus/side_faces.hpp"
 
 namespace strut::io {
 
@@ -134,8 +134,7 @@ PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, b
 
 void add_surfaces(const MeshSlice& slice, const std::vector<Mirror>& planes, const Communicator& communicator,
                   PointCloud& cloud) {
-  for (const Face& face : surface_of(slice, communicator)) {
-    if (is_on(planes, face, slice.mesh)) continue;
+  for (const Face& face : without_continued(surface_of(slice, communicator), slice, planes, communicator)) {
     const std::size_t point = static_cast<std::size_t>(face.element);
     if (!slice.mesh.blocks[cloud.blocks[point]].cells.empty()) continue;
     CellShape& shape = cloud.shapes[point];

@@ -2,6 +2,9 @@
 // refused.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
+
 #include "regression/bodies.hpp"
 #include "run/simulation.hpp"
 
@@ -125,6 +128,51 @@ INSTANTIATE_TEST_SUITE_P(
              metal("Elastic Plastic Correspondence", yields + key("Formulation", "Quadratic Correspondence")),
              key("Horizon Factor", "1.75")}),
     [](const auto& info) { return info.param.name; });
+
+// By quadratic correspondence faces at a side without a neighbor behind it are surface, others are none: a bar with a
+// notch at the side, where its upper cells face the void, and three periods of it.
+TEST(PeriodicSides, FacesThatNothingMeetsAreSurface) {
+  const auto solid = [](int i, int j) { return i % cells > 0 || j > 0; };
+  const auto bar = [&](int nx) {
+    return Lattice{.nx = nx, .ny = 3, .nz = 5, .inside = [&](double x, double y) {
+                     return solid(static_cast<int>(x / 1e-3), static_cast<int>(y / 1e-3));
+                   }};
+  };
+  Parts parts;
+  parts.materials = metal("Elastic Correspondence", key("Formulation", "Quadratic Correspondence"));
+  parts.blocks =
+      section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+  parts.verlet = key("Fixed dt", "2e-8");
+  parts.times = key("Final Time", "1.6e-6");
+  const std::string start =
+      along("flight", "Initial Velocity", "all", "z", "-80") + plane("wall", "Rigid Plane", "all", "0 0 0", "0 0 1");
+  const RunFolder one(bar(cells)), three(bar(3 * cells));
+  parts.conditions = start + sides("x", "0", "6e-3");
+  const std::vector<Vector> some = run_of(one, parts);
+  parts.conditions = start + sides("x", "0", "18e-3");
+  const std::vector<Vector> all = run_of(three, parts);
+  if (one.world.rank() > 0) return;
+  ASSERT_EQ(all.size(), 3 * some.size());
+  std::map<std::array<int, 3>, std::size_t> places;  // of the elements of one period
+  const auto visit = [&](int nx, const auto& act) {
+    for (int k = 0; k < 5; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < nx; ++i) {
+          if (solid(i, j)) act(std::array{i % cells, j, k});
+        }
+      }
+    }
+  };
+  visit(cells, [&](const auto& cell) { places.emplace(cell, places.size()); });
+  std::size_t n = 0;
+  double most = 0, largest = 0;
+  visit(3 * cells, [&](const auto& cell) {
+    most = std::max(most, (some[places.at(cell)] - all[n]).norm());
+    largest = std::max(largest, all[n++].norm());
+  });
+  EXPECT_GT(largest, 1e-5);
+  EXPECT_LT(most, 1e-9 * largest);  // the same sums in another order; 4 % where all faces at sides are none
+}
 
 // Two bars that lie on each other with their surfaces; the upper one is thrown onto the lower one and along it, so that
 // faces slide through the sides: one period of it, and three.
@@ -343,6 +391,33 @@ std::string error_of(Parts parts) {
 }
 
 // A roll across a side has no image at the other one; between the sides, or along the axis, it needs none.
+// Partly filled cells bring their surfaces: of a box that was not made to repeat, those at its ends, too.
+TEST(PeriodicSides, TellOfCellsThatEndAtThem) {
+  const RunFolder folder;
+  const auto told = [&](bool ends) {
+    io::Mesh mesh = Lattice{}.mesh();
+    io::Mesh::Block& bar = mesh.blocks[0];
+    for (std::size_t e = 0; e < bar.elements(); ++e) {
+      const Vector middle = 0.5 * (mesh.nodes[bar.nodes[8 * e]] + mesh.nodes[bar.nodes[8 * e + 6]]);
+      io::PartialCell cell{.volume = 1e-9, .centroid = middle};
+      cell.moments.head<3>().setConstant(1e-6 / 12);
+      if (ends && middle[0] < 1e-3) cell.surface[0] = -1e-6, cell.surface_moments(0, 0) = 0.5e-9;
+      if (ends && middle[0] > 3e-3) cell.surface[0] = 1e-6, cell.surface_moments(0, 0) = 0.5e-9;
+      bar.cells.push_back(cell);
+    }
+    run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+    Parts parts;
+    parts.materials = metal("Elastic Correspondence", key("Formulation", "Quadratic Correspondence"));
+    parts.blocks =
+        section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+    parts.conditions = sides("x", "0", "4e-3");
+    const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+    return set_up(deck, folder.world).warnings.find("their mesh was not made to repeat") != std::string::npos;
+  };
+  EXPECT_FALSE(told(false));
+  EXPECT_TRUE(told(true));
+}
+
 TEST(PeriodicSides, TellOfToolsAcrossThem) {
   const RunFolder folder;
   const auto told = [&](const std::string& point, const std::string& axis, const std::string& travel) {

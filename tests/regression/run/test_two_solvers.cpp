@@ -1,26 +1,34 @@
 // Explicit steps after equilibria: the body goes on as it was, and so does what the history counts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "deck/numbers.hpp"
 #include "regression/bodies.hpp"
 #include "run/simulation.hpp"
 
 namespace strut::regression {
 namespace {
 
-// A history of equilibria up to 1 s, then of explicit steps.
-Table history_of(Parts parts, const std::vector<std::string>& variables) {
-  const RunFolder folder;
-  std::string names;
-  for (const std::string& name : variables) names += key(name, "true");
-  parts.history =
-      key("Filename", (folder / "history.csv").string()) + key("Frequency", "1") + section("Variables", names);
+// The bar's deck with equilibria up to 1 s, then explicit steps.
+std::string deck_of(Parts parts) {
   parts.times = key("Final Time", "1");
   const std::string first = section("QuasiStatic", key("Number of Load Steps", "2"));
   const std::string next = section("Solver 2", key("Final Time", "1.000005") + section("Verlet", ""));
-  const std::string deck = changed(parts.text(), section("Solver", parts.times + section("Verlet", parts.verlet)),
-                                   section("Solver", parts.times + first) + next);
+  return changed(parts.text(), section("Solver", parts.times + section("Verlet", parts.verlet)),
+                 section("Solver", parts.times + first) + next);
+}
+
+// Its history. `when`: its rows.
+Table history_of(Parts parts, const std::vector<std::string>& variables,
+                 const std::string& when = key("Frequency", "1")) {
+  const RunFolder folder;
+  std::string names;
+  for (const std::string& name : variables) names += key(name, "true");
+  parts.history = key("Filename", (folder / "history.csv").string()) + when + section("Variables", names);
   testing::internal::CaptureStdout();
-  run(folder.write("deck.xml", deck), folder.world);
+  run(folder.write("deck.xml", deck_of(parts)), folder.world);
   testing::internal::GetCapturedStdout();
   return read_history(folder / "history.csv");
 }
@@ -64,6 +72,82 @@ TEST(TwoSolvers, WorkGoesOn) {
                         table.at("Stabilization_Energy")[n] + table.at("Plastic_Work")[n];
     EXPECT_NEAR(table.at("External_Work")[n], held, 2e-3 * held) << n;  // hypoelastic at a strain of 1.7e-3
   }
+}
+
+const std::string held = along("low", "Prescribed Displacement", "foot", "xyz", "0");
+
+// What only the steps use is wrong from the start of the run on, not after its equilibria.
+TEST(TwoSolvers, ErrorsOfTheStepsComeBeforeTheEquilibria) {
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {along("blow", "Initial Velocity", "top", "z", "sqrt(0.5 - t)"), "Boundary Conditions > blow > Value"},
+      {section("hammer", key("Type", "Rigid Plane") + key("Point", "0 0 7e-3") + key("Normal", "0 0 -1") +
+                             key("Mass", "1e-3") + key("Force Z", "log(1 - t)")),
+       "Boundary Conditions > hammer > Force Z"},
+      {along("blow", "Initial Velocity", "top", "z", "1") + along("other", "Initial Velocity", "all", "z", "t"), ""},
+      {along("way", "Prescribed Displacement", "top", "x", "1e-6*t") +
+           along("as fast", "Prescribed Velocity", "top", "x", "1e-6"),
+       ""},
+      {along("blow", "Initial Velocity", "top", "z", "0") + along("other", "Initial Velocity", "all", "z", "t"),
+       "Boundary Conditions > other: contradicts 'blow'"},
+      {along("way", "Prescribed Velocity", "top", "x", "0") +
+           along("late", "Prescribed Velocity", "top", "x", "(t &gt; 1)*5"),
+       "Boundary Conditions > late: contradicts 'way'"},
+      {section("end", key("Type", "Non-Reflecting End") + key("Node Set", "all") + key("Normal", "0 0 1")),
+       "Boundary Conditions > end > Node Set"}};
+  for (const auto& [conditions, expected] : wrong) {
+    Parts parts;
+    parts.conditions = held + conditions;
+    const RunFolder folder;
+    const std::filesystem::path deck = folder.write("deck.xml", deck_of(parts));
+    std::string error;
+    testing::internal::CaptureStdout();
+    try {
+      run(deck, folder.world);
+    } catch (const Error& raised) {
+      error = raised.what();
+    }
+    const std::string said = testing::internal::GetCapturedStdout();
+    EXPECT_EQ(error.empty(), expected.empty()) << error;
+    EXPECT_NE(error.find(expected), std::string::npos) << error;
+    if (!expected.empty()) EXPECT_EQ(said.find("iterations"), std::string::npos) << said;
+  }
+}
+
+// By default each solver fills its own time, however much shorter that of the steps is.
+TEST(TwoSolvers, BothWriteByDefault) {
+  Parts parts;
+  parts.conditions = held + along("blow", "Initial Velocity", "top", "z", "1");
+  const std::vector<double> times = history_of(parts, {}, "").at("Time");
+  const auto steps = std::count_if(times.begin(), times.end(), [](double t) { return t > 1; });
+  EXPECT_EQ(static_cast<int>(times.size()) - steps, 3);  // the equilibria
+  EXPECT_GT(steps, 10);                                  // a step is longer than a thousandth of their time
+}
+
+// An interval for both, which no step but the last one reaches, is told of.
+TEST(TwoSolvers, AnIntervalLongerThanTheStepsIsTold) {
+  Parts parts;
+  parts.conditions = held;
+  parts.history = key("Filename", "history.csv") + key("Interval", "0.1") + section("Variables", "");
+  const RunFolder folder;
+  const deck::Deck deck = deck::read(folder.write("deck.xml", deck_of(parts)), folder.world);
+  ASSERT_EQ(deck.notes.size(), 1u);
+  EXPECT_EQ(deck.notes[0], "History > Interval is 0.1 s, also in Solver 2, which lasts " + deck::to_text(1.000005 - 1) +
+                               " s: of its steps only the last one is written");
+}
+
+// A check looks at the steps, too.
+TEST(TwoSolvers, ACheckTellsOfTheSteps) {
+  Parts parts;
+  parts.conditions = held + along("high", "Prescribed Displacement", "top", "z", "1e-5*t");
+  const RunFolder folder;
+  const std::filesystem::path deck = folder.write("deck.xml", deck_of(parts));
+  testing::internal::CaptureStdout();
+  check(deck, folder.world);
+  const std::string said = testing::internal::GetCapturedStdout();
+  if (folder.world.rank() != 0) return;
+  const std::size_t next = said.find("Solver 2, with the body after these load steps:");
+  ASSERT_NE(next, std::string::npos) << said;
+  EXPECT_NE(said.find("critical time step", next), std::string::npos) << said;
 }
 
 }  // namespace
