@@ -98,8 +98,8 @@ std::string summary_of_more(const Body& body, const Skeleton& skeleton) {
   std::string text;
   if (body.sizes > 0 || body.relax > 0 || body.stretch != Vector::Ones() || is_periodic(body)) {
     text += "  volumes of the cells: standard deviation " + number(100 * skeleton.scatter) +
-            " % of their mean; stretched by " + number(body.stretch[0]) + " " + number(body.stretch[1]) + " " +
-            number(body.stretch[2]) + axes_of(body) + "\n";
+            " % of their mean; stretched by " + number(skeleton.stretch[0]) + " " + number(skeleton.stretch[1]) + " " +
+            number(skeleton.stretch[2]) + axes_of(body) + "\n";
   }
   if (body.node_thickness > 1 || body.three_cornered) {
     text += std::string("  ") + (body.three_cornered ? "three-cornered" : "round") +

@@ -278,6 +278,7 @@ Skeleton foam_skeleton(const Vector& size, const FoamSeeds& wanted) {
   for (int n = 0; n < wanted.relax; ++n) relax(spheres);
   const Vector origin = wanted.periodic ? Vector(Vector::Zero()) : Vector(-half);  // of the box
   Skeleton skeleton;
+  skeleton.stretch = unit / std::cbrt(unit.prod());
   for (const Vector& x : spheres.places) {
     const bool inside = ((x - origin).array() >= 0).all() && ((x - origin - 2 * half).array() <= 0).all();
     skeleton.cells += inside || wanted.periodic ? 1 : 0;

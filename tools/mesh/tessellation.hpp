@@ -16,9 +16,10 @@ struct Edge {
 };
 
 struct Skeleton {
-  std::vector<Edge> edges;  // all in a box of this size at the origin, and more around it, uncut
-  std::size_t cells = 0;    // number with their seed in the box
-  double scatter = 0;       // standard deviation of their volumes over the mean
+  std::vector<Edge> edges;          // all in a box of this size at the origin, and more around it, uncut
+  std::size_t cells = 0;            // number with their seed in the box
+  double scatter = 0;               // standard deviation of their volumes over the mean
+  Vector stretch = Vector::Ones();  // of the cells, as periods allow
 };
 
 struct FoamSeeds {

@@ -233,6 +233,18 @@ TEST(Foam, StretchedCellsHaveLongerIntercepts) {
   EXPECT_NEAR(across_z / across_x, stretch, 4 * stretch * std::sqrt(1 / across_x + 1 / across_z));
 }
 
+TEST(Foam, APeriodStretchesCellsToAWholeNumber) {
+  // Cubes of a lattice of some 1/4: four along each axis; stretched, 3.05 along z, so three, and 4.6, so five, across.
+  const double cell = 0.25 * 2 * std::cbrt(3 / std::numbers::pi) / 2;
+  const auto stretch_of = [&](double wanted) {
+    return foam_skeleton(Vector::Ones(), {.cell = cell, .stretch = Vector(1, 1, wanted), .periodic = true}).stretch;
+  };
+  EXPECT_LT((stretch_of(1.1) - Vector::Ones()).norm(), 1e-14);
+  const Vector stretch = stretch_of(1.5);
+  EXPECT_NEAR(stretch[2] / stretch[0], 5.0 / 3, 1e-14);
+  EXPECT_NEAR(stretch.prod(), 1, 1e-14);
+}
+
 // A strut through the sides of a box that repeats has no surface there.
 TEST(Foam, CellsAtPeriodicSidesHaveNoSurfaceThere) {
   VoxelGrid grid{{1, 1, 1}, {24, 24, 24}, {true, true, true}};
