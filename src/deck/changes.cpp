@@ -138,6 +138,10 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     if (is_of_the_body(path, other)) changes.refused.push_back(path + ": " + was + " there, " + is + " here");
   }
   compare_images(other, now, changes.refused);
+  for (const char* const file : {"Output > Output Filename", "History > Filename"}) {
+    if (other.contains(file) && now.contains(file) && other.at(file) == now.at(file))
+      changes.same_files.push_back(file);
+  }
   return changes;
 }
 

@@ -218,6 +218,7 @@ class Starts(unittest.TestCase):
             ({}, other, "of another mesh: block 0 (block): 152 points there, 160 here"),
             ({"Boundary Conditions": {**conditions, "side": plane}}, block.mesh(), "Boundary Conditions > side: not there"),
             ({"Boundary Conditions": {**conditions, "top": top}}, block.mesh(), "Boundary Conditions > top > Value"),
+            ({"Output": block.output("first.e")}, block.mesh(), "Output > Output Filename: 'first.e' is of the run that first.restart comes"),
             ({"Start From": {"Checkpoint": "first.e"}}, block.mesh(), "first.e is a result"),
             ({"Start From": {"Checkpoint": "none"}}, block.mesh(), "Start From > Checkpoint: none: there is no such file"),
             ({"Start From": {}}, block.mesh(), "Start From > Checkpoint: missing"),
