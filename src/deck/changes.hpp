@@ -22,7 +22,7 @@ struct StartChanges {
   std::vector<std::string> refused;     // keys that make it another body, as above
   std::vector<std::string> same_files;  // keys by which both decks name one file to write
   bool after_equilibria = false;        // the other run's solver
-  bool same_solver = false, same_contact = false, same_conditions = false;
+  bool same_solver = false, same_contact = false, same_conditions = false, same_loads = false;
 };
 StartChanges start_changes(const std::string& other, const std::string& now);
 

@@ -139,9 +139,12 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   if (!keeps_velocities_) {
     std::ranges::fill(body.velocity, Vector::Zero());
   } else if (!goes_on_ && !changes_.after_equilibria) {
-    // From the mid-step before the checkpoint to its time.
+    // From the mid-step before the checkpoint to its time, with the loads there, which are known if this deck has them.
+    const std::vector<Vector> inner = body.force_density;
+    if (changes_.same_loads) add_forces(scene.conditions, time_, body);
     for (int i = 0; i < body.owned(); ++i)
       body.velocity[i] += 0.5 * last_step / body.density[i] * body.force_density[i];
+    body.force_density = inner;
   }
   if (!goes_on_) body.previous_velocity = *body.velocity;
   const auto knows_reaches = [&](int tool) {

@@ -163,6 +163,24 @@ class Starts(unittest.TestCase):
         os.remove("first.restart")
         self.assertGoesOn(whole, strut.run(second, continued=True))
 
+    def test_a_start_at_another_time_keeps_the_velocities_of_the_steps(self):
+        """With a step as long: those at the time of the checkpoint, to which loads have their part, are the mean of both mid-steps."""
+        load = {"Type": "Body Force", "Node Set": "all", "Coordinate": "z", "Value": "1e10"}
+        blow = {"Type": "Initial Velocity", "Node Set": "block_zmax", "Coordinate": "xz", "Value": "-20"}
+        deck = block.deck()
+        foot = deck["Boundary Conditions"]["foot"]
+        step, end = 1e-7, 4e-6
+        deck = but(deck, Boundary_Conditions={"foot": foot, "load": load, "blow": blow}, History={"Frequency": 1},
+                   Solver={"Final Time": end, "Verlet": {"Fixed dt": step}})
+        whole = strut.run(deck, block.mesh())
+        first = ended(deck, 20, block.mesh())
+        second = but(deck, Boundary_Conditions={"foot": foot, "weight": load}, Solver={"Final Time": end - first.time, "Verlet": {"Fixed dt": step}})
+        run = strut.run(start(second, "first.restart"), block.mesh())
+        for field in FIELDS:
+            if field in whole.fields:
+                one, other = whole.whole(field), run.whole(field)
+                self.assertLessEqual(np.abs(one - other).max(), 1e-9 * np.abs(one).max(), field)  # round-off of some steps
+
     def test_equilibria_and_then_steps_are_those_of_two_solvers(self):
         """Of tools and of surfaces that rub, and with velocities kept: the same to round-off, as contact is searched anew."""
         for name, keep in (("press", False), ("rubbing", False), ("rubbing", True)):
