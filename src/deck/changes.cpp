@@ -92,13 +92,13 @@ bool is_of_the_body(const std::string& path, const Texts& other) {
   return std::any_of(of_the_body.begin(), of_the_body.end(), [&](const char* one) { return is_within(path, one); });
 }
 
-// Symmetry planes and periodic sides, which make images of the points: their keys in one text each, without names.
-std::map<std::string, std::string> images(const Texts& texts) {
+// The keys of the conditions of some types in one text each, without names.
+std::map<std::string, std::string> keys_of(const Texts& texts, const std::set<std::string>& types) {
   std::map<std::string, std::string> names;  // by the keys
   for (const auto& [path, type] : texts) {
     const std::string parent = "Boundary Conditions > ", end = " > Type";
     if (!path.starts_with(parent) || !path.ends_with(end)) continue;
-    if (type != "Symmetry Plane" && type != "Periodic Sides") continue;
+    if (!types.contains(type)) continue;
     const std::string name = path.substr(0, path.size() - end.size());
     std::string keys;
     for (const auto& [key, text] : texts) {
@@ -110,8 +110,10 @@ std::map<std::string, std::string> images(const Texts& texts) {
   return names;
 }
 
+// Symmetry planes and periodic sides make images of the points.
 void compare_images(const Texts& other, const Texts& now, std::vector<std::string>& refused) {
-  const auto before = images(other), after = images(now);
+  const std::set<std::string> types = {"Symmetry Plane", "Periodic Sides"};
+  const auto before = keys_of(other, types), after = keys_of(now, types);
   for (const auto& [keys, name] : before) {
     if (!after.contains(keys)) refused.push_back(name + ": not there, or another one, now");
   }
@@ -127,7 +129,8 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
   StartChanges changes{.after_equilibria = other.contains("Solver > QuasiStatic"),
                        .same_solver = true,
                        .same_contact = true,
-                       .same_conditions = true};
+                       .same_conditions = true,
+                       .same_loads = true};
   for (const std::string& path : paths_of(other, now)) {
     const std::string was = text_at(other, path), is = text_at(now, path);
     if (was == is) continue;
@@ -135,9 +138,20 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
       changes.same_solver = false;
     if (is_within(path, "Contact")) changes.same_contact = false;
     if (is_within(path, "Boundary Conditions") || is_within(path, "Node Sets")) changes.same_conditions = false;
+    if (is_within(path, "Node Sets")) changes.same_loads = false;
     if (is_of_the_body(path, other)) changes.refused.push_back(path + ": " + was + " there, " + is + " here");
   }
   compare_images(other, now, changes.refused);
+  const auto sets_of = [](const Texts& texts) {
+    std::set<std::string> all;
+    for (const auto& [keys, name] : keys_of(texts, {"Body Force"})) all.insert(keys);
+    return all;
+  };
+  changes.same_loads = changes.same_loads && sets_of(other) == sets_of(now);
+  for (const char* const file : {"Output > Output Filename", "History > Filename"}) {
+    if (other.contains(file) && now.contains(file) && other.at(file) == now.at(file))
+      changes.same_files.push_back(file);
+  }
   return changes;
 }
 

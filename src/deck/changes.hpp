@@ -19,9 +19,10 @@ Changes changes(const std::string& before, const std::string& now);
 
 // How a deck that starts from the state of another run (Start From) differs from the deck of that run.
 struct StartChanges {
-  std::vector<std::string> refused;  // keys that make it another body, as above
-  bool after_equilibria = false;     // the other run's solver
-  bool same_solver = false, same_contact = false, same_conditions = false;
+  std::vector<std::string> refused;     // keys that make it another body, as above
+  std::vector<std::string> same_files;  // keys by which both decks name one file to write
+  bool after_equilibria = false;        // the other run's solver
+  bool same_solver = false, same_contact = false, same_conditions = false, same_loads = false;
 };
 StartChanges start_changes(const std::string& other, const std::string& now);
 

@@ -90,6 +90,7 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
   changes_ = deck::start_changes(facts.deck, deck.text);
   for (const std::string& one : changes_.refused)
     problems.add(one + "; expected the bodies of " + file_.string() + " (" + key + ")");
+  spare_files(deck, problems);
   keeps_velocities_ = deck.start_from->keeps_velocities.value_or(!changes_.after_equilibria);
   const double now = deck.solver.initial_time;
   const bool same_time = std::abs(now - time_) <= round_off * std::abs(time_);
@@ -97,6 +98,24 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
       changes_.after_equilibria || (keeps_velocities_ && (changes_.same_conditions || !has_initial_velocity(deck)));
   goes_on_ = same_time && changes_.same_solver && changes_.same_contact && with_velocities &&
              changes_.after_equilibria == deck.solver.quasi_static.has_value();
+}
+
+// A deck made from that of the other run names its files, too, which are in the folder of its checkpoint.
+void StartState::spare_files(const deck::Deck& deck, deck::Problems& problems) const {
+  for (const std::string& key_of_file : changes_.same_files) {
+    const std::filesystem::path& file = key_of_file.starts_with("Output") ? deck.output.file : deck.history.file;
+    std::string why;
+    run_on_root(communicator_, [&] {
+      std::error_code ignored;
+      const std::filesystem::path beside = file_.parent_path() / file;
+      if (std::filesystem::equivalent(beside, file, ignored)) {
+        why = "'" + file.string() + "' is of the run that " + file_.string() +
+              " comes from, and would be replaced; expected another name";
+      }
+    });
+    communicator_.broadcast(why);
+    if (!why.empty()) problems.add(key_of_file, why);
+  }
 }
 
 std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
@@ -120,9 +139,12 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   if (!keeps_velocities_) {
     std::ranges::fill(body.velocity, Vector::Zero());
   } else if (!goes_on_ && !changes_.after_equilibria) {
-    // From the mid-step before the checkpoint to its time.
+    // From the mid-step before the checkpoint to its time, with the loads there, which are known if this deck has them.
+    const std::vector<Vector> inner = body.force_density;
+    if (changes_.same_loads) add_forces(scene.conditions, time_, body);
     for (int i = 0; i < body.owned(); ++i)
       body.velocity[i] += 0.5 * last_step / body.density[i] * body.force_density[i];
+    body.force_density = inner;
   }
   if (!goes_on_) body.previous_velocity = *body.velocity;
   const auto knows_reaches = [&](int tool) {

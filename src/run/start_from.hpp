@@ -30,6 +30,7 @@ class StartState {
  private:
   template <class Solver>
   void take_steps(Solver& solver, void (Solver::*serialize)(Archive&));
+  void spare_files(const deck::Deck& deck, deck::Problems& problems) const;
   bool takes_of_steps(const std::string& name) const;
   std::string story(const deck::Deck& deck, const Scene& scene) const;
 

@@ -1,5 +1,6 @@
 """Pairs of runs that must agree. A relation makes the other run of a scene, compares, and returns what is wrong, or None; NotHere tells why
 it does not hold for a scene."""
+import copy
 import itertools
 import re
 from dataclasses import replace
@@ -355,6 +356,83 @@ def broken_off(case):
     return bits(case, other, files, 0 if ranks == 1 else 1e-9)
 
 
+def steps_afterwards(case):
+    """Explicit steps after the equilibria, by one deck of two solvers and by a run that starts from the checkpoint of the other."""
+    if case.scene.explicit:
+        raise NotHere("there are no equilibria")
+    dt = 0.15 * case.scene.h / case.scene.speed
+    steps = {"Initial Time": case.scene.end, "Final Time": case.scene.end + 12 * dt, "Verlet": {"Fixed dt": dt}}
+    both, first, second = written(case.scene), written(case.scene, restart={"Frequency": 1000}), written(case.scene)
+    both.deck["Solver 2"] = second.deck["Solver"] = steps
+    second.deck["Start From"] = {"Checkpoint": "../first/deck.restart"}
+    one = case.runner.run(both, name="both", limit=PATIENCE)
+    case.runner.run(first, name="first")
+    other = case.runner.run(second, ranks=int(case.chance("afterwards").choice([1, 3])), name="other")
+    return last_differ(replace_base(case, one), other, second, ROUND_OFF)
+
+
+def started_from(case):
+    """In the middle, by a signal; another run starts from that checkpoint at its time (Start From): fields to the last bit on any ranks."""
+    rng = case.chance("started from")
+    scene, word = case.scene.copy(), "dt"
+    if not scene.explicit:
+        word = "iteration"
+        scene.deck["Solver"]["Verbose"] = True
+    files = written(scene)
+    first = int(rng.choice([1, 1, 3]))
+    broken = case.runner.run(files, "--break", int(rng.integers(1, 9)), word, ranks=first, name="first")
+    if is_lost(broken, case.base):
+        return broken.status
+    if broken.status != 3 or len_of(broken) < 2:
+        raise NotHere("it was over before, or had not begun")
+    if not scene.explicit:
+        steps = scene.deck["Solver"]["QuasiStatic"]["Number of Load Steps"]
+        done = (broken.history["Time"][-1] - scene.begin) / (scene.end - scene.begin) * steps
+        if abs(done - round(done)) > 1e-6 or not 0 < round(done) < steps:
+            raise NotHere("a load step was cut, or it was over before")
+        scene.deck["Solver"]["QuasiStatic"]["Number of Load Steps"] = steps - round(done)
+    files = written(scene)
+    files.deck["Solver"]["Initial Time"] = float(broken.history["Time"][-1])
+    files.deck["Start From"] = {"Checkpoint": "../first/deck.restart"}
+    ranks = int(rng.choice([1, 1, 3]))
+    other = case.runner.run(files, ranks=ranks, name="other")
+    if is_lost(other, case.base):
+        return other.status
+    if "goes on with its steps" not in other.log and other.status != 1:
+        return "it does not go on with the steps"
+    return last_differ(case, other, files, 1e-4 if not scene.explicit else 0 if ranks == first == 1 else 1e-9)
+
+
+# What counts work from the start of a run on.
+OF_WORK = ("Tool_Work", "Contact_Work", "External_Work", "Balance_Error")
+
+
+def last_differ(case, other, files, tolerance):
+    """In the last frame, and in the rows since the second one of the other run: work counts from its start, and so do means."""
+    if case.ended_differently(other):
+        return case.ended_differently(other)
+    rows = np.abs(case.base.history["Time"] - other.history["Time"][1:, None]).argmin(axis=1)
+    if len(rows) == 0 or not np.allclose(case.base.history["Time"][rows], other.history["Time"][1:], rtol=1e-9, atol=0):
+        return "rows: at other times"
+    ends = lambda result, rows: replace(result, frames=result.frames[:1] + result.frames[-1:], times=result.times[[0, -1]], history={
+        name: column[rows] * (name not in OF_WORK) for name, column in result.history.items()})
+    one, two = ends(case.base, rows), ends(other, slice(1, None))
+    two.frames[0] = one.frames[0]
+    parts = fields_differ(one, two, case.scene, Frame()) | histories_differ(one, two, case.scene, Frame(), names(files), names(files))
+    wrong = {name: part for name, part in parts.items() if part > tolerance}
+    if wrong and rests_anywhere(case.base):
+        raise NotHere(ANYWHERE)
+    if wrong:
+        name = max(wrong, key=wrong.get)
+        return f"{name}: {wrong[name]:.2e}"
+
+
+def replace_base(case, base):
+    made = copy.copy(case)
+    made.base = base
+    return made
+
+
 def checked(case):
     """The output of `--check`."""
     checked = case.runner.run(case.written, "--check", name="other")
@@ -560,5 +638,5 @@ def folded(text, name, at):
 
 RELATIONS = {"moved": moved, "later": later, "quarter turned": quarter_turned, "mirrored": mirrored, "in other units": in_other_units,
              "flying": flying, "reordered": reordered, "cut in blocks": cut_in_blocks, "on three ranks": on_three_ranks,
-             "on two threads": on_two_threads, "broken off": broken_off, "checked": checked, "without subcycling": without_subcycling,
+             "on two threads": on_two_threads, "broken off": broken_off, "started from": started_from, "steps afterwards": steps_afterwards, "checked": checked, "without subcycling": without_subcycling,
              "half the step": half_the_step, "half of it": half_of_it}

@@ -195,8 +195,8 @@ NOT_DRAWN = {
     "Discretization > Bond Filters > (any name)": COMPOSED,
     "Discretization > TensorProduct3DMeshGenerator": COMPOSED,
     "Discretization > Type": COMPOSED,
-    "Start From": Not("the end of another run: regression/python/starts.py"),
-    "Solver 2": Not("steps after equilibria: unit/deck, regression/deck/test_peridigm"),
+    "Start From": Not("the end of another run: a relation, regression/python/starts.py"),
+    "Solver 2": Not("steps after equilibria: a relation, regression/run/test_two_solvers"),
     **{f"Materials > (any name) > {key}": Not("fits two elastic constants only: contract/test_hyperelastic")
        for key in ("C10", "C01", "Ogden Moduli", "Ogden Exponents")},
     "Node Sets > (any name)": COMPOSED,

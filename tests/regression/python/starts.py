@@ -159,6 +159,24 @@ class Starts(InFolder):
         os.remove("first.restart")
         self.assertGoesOn(whole, strut.run(second, continued=True))
 
+    def test_a_start_at_another_time_keeps_the_velocities_of_the_steps(self):
+        """With a step as long: those at the time of the checkpoint, to which loads have their part, are the mean of both mid-steps."""
+        load = {"Type": "Body Force", "Node Set": "all", "Coordinate": "z", "Value": "1e10"}
+        blow = {"Type": "Initial Velocity", "Node Set": "block_zmax", "Coordinate": "xz", "Value": "-20"}
+        deck = block.deck()
+        foot = deck["Boundary Conditions"]["foot"]
+        step, end = 1e-7, 4e-6
+        deck = but(deck, Boundary_Conditions={"foot": foot, "load": load, "blow": blow}, History={"Frequency": 1},
+                   Solver={"Final Time": end, "Verlet": {"Fixed dt": step}})
+        whole = strut.run(deck, block.mesh())
+        first = ended(deck, 20, block.mesh())
+        second = but(deck, Boundary_Conditions={"foot": foot, "weight": load}, Solver={"Final Time": end - first.time, "Verlet": {"Fixed dt": step}})
+        run = strut.run(start(second, "first.restart"), block.mesh())
+        for field in FIELDS:
+            if field in whole.fields:
+                one, other = whole.whole(field), run.whole(field)
+                self.assertLessEqual(np.abs(one - other).max(), 1e-9 * np.abs(one).max(), field)  # round-off of some steps
+
     def test_equilibria_and_then_steps_are_those_of_two_solvers(self):
         """Of tools and of surfaces that rub, and with velocities kept: the same to round-off, as contact is searched anew."""
         for name, keep in (("press", False), ("rubbing", False), ("rubbing", True)):
@@ -214,6 +232,7 @@ class Starts(InFolder):
             ({}, other, "of another mesh: block 0 (block): 152 points there, 160 here"),
             ({"Boundary Conditions": {**conditions, "side": plane}}, block.mesh(), "Boundary Conditions > side: not there"),
             ({"Boundary Conditions": {**conditions, "top": top}}, block.mesh(), "Boundary Conditions > top > Value"),
+            ({"Output": block.output("first.e")}, block.mesh(), "Output > Output Filename: 'first.e' is of the run that first.restart comes"),
             ({"Start From": {"Checkpoint": "first.e"}}, block.mesh(), "first.e is a result"),
             ({"Start From": {"Checkpoint": "none"}}, block.mesh(), "Start From > Checkpoint: none: there is no such file"),
             ({"Start From": {}}, block.mesh(), "Start From > Checkpoint: missing"),
