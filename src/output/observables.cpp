@@ -60,7 +60,8 @@ Observable weighted_volume() {
     for (const MaterialBlock& block : body.blocks) {
       for (std::size_t k = 0; k < block.points.size(); ++k) {
         const int i = block.points[k];
-        out[i] = block.is_ordinary() ? block.ordinary[k].weighted_volume : trace_of_shape(body, i);
+        const bool is_alone = body.domain.families.size(i) == 0 && !body.has_lost_bonds(i);  // m is then a stand-in
+        out[i] = block.is_ordinary() && !is_alone ? block.ordinary[k].weighted_volume : trace_of_shape(body, i);
       }
     }
   };

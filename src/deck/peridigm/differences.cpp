@@ -83,28 +83,34 @@ class Differences {
   void tell_of_horizons() {
     problems_.note("Blocks",
                    "have horizons of their own: points of two of them are neighbors below the mean of both, and feel "
-                   "each other's forces; in Peridigm each takes those within its own horizon");
+                   "each other's forces; in Peridigm each takes those within its own horizon. Points as far apart as a "
+                   "horizon, to 1e-9 of it, are neighbors here");
   }
 
   // Steps of the motion: where they end, and which of them have frames.
   void tell_of_steps() {
-    List* solver = find_list(deck_, "Solver");
-    List* steps = solver ? find_list(*solver, "Verlet") : nullptr;
-    if (!steps) return;
-    const auto dt = real_of(*steps, "Fixed dt");
-    const double duration = real_of(*solver, "Final Time").value_or(0) - real_of(*solver, "Initial Time").value_or(0);
+    for (const char* name : {"Solver", "Solver 2"}) {
+      List* solver = find_list(deck_, name);
+      List* steps = solver ? find_list(*solver, "Verlet") : nullptr;
+      if (steps) tell_of_steps(*solver, *steps);
+    }
+  }
+
+  void tell_of_steps(const List& solver, const List& steps) {
+    const auto dt = real_of(steps, "Fixed dt");
+    const double duration = real_of(solver, "Final Time").value_or(0) - real_of(solver, "Initial Time").value_or(0);
     if (!dt) {
-      problems_.note("Solver > Verlet",
+      problems_.note(solver.name + " > Verlet",
                      "has no Fixed dt: the critical time step is estimated in another way (by the highest frequency), "
                      "and frames by the number of steps have other times than Peridigm's");
     } else if (*dt > 0 && std::abs(duration / *dt - std::round(duration / *dt)) > 1e-6) {
-      problems_.note("Solver > Final Time",
+      problems_.note(solver.name + " > Final Time",
                      "is where the last step ends, which is shorter than Fixed dt; Peridigm takes whole steps only");
     }
     if (has_condition("Prescribed Displacement")) {
       tell_of_field("Velocity",
                     "of points with Prescribed Displacement is that of their motion from the initial time on; in "
-                    "Peridigm's frame at the initial time it is 0");
+                    "Peridigm's frame at the initial time it is 0, and such points keep half a kick of their forces");
     }
   }
 
@@ -121,7 +127,7 @@ class Differences {
       if (model.starts_with("Elastic Plastic")) {
         tell_of_field("Equivalent_Plastic_Strain",
                       "is what the yield condition asks for; Peridigm's is some 10 % lower, the more the larger the "
-                      "steps");
+                      "steps, and so is what it adds to the flow stress by hardening");
       }
     }
   }

@@ -123,7 +123,7 @@ void refuse_laws(List& deck, Problems& problems) {
 }
 
 void refuse_damage(List& deck, Problems& problems) {
-  List* models = find_list(deck, "Damage Models");
+  List *models = find_list(deck, "Damage Models"), *blocks = find_list(deck, "Blocks");
   if (!models) return;
   for (List& model : models->lists) {
     const auto missing = missing_damage.find(value_of(model, "Damage Model"));
@@ -131,6 +131,10 @@ void refuse_damage(List& deck, Problems& problems) {
     problems.add("Damage Models > " + model.name + " > Damage Model", "'" + missing->first + "': " + missing->second);
     model.lists.clear();
     model.parameters = {{"Damage Model", "string", "Critical Stretch"}, {"Critical Stretch", "double", "1"}};
+    if (!blocks) continue;
+    for (List& block : blocks->lists) {
+      if (value_of(block, "Damage Model") == model.name) erase_parameter(block, "Damage Model");
+    }
   }
 }
 

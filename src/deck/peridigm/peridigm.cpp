@@ -84,10 +84,12 @@ void translate_hourglass(List& material, const std::string& path, Problems& prob
   const std::string coefficient = to_text(0.25 * *number);
   material.parameters.push_back({"Stabilization", "string", "Silling"});
   material.parameters.push_back({"Stabilization Coefficient", "double", coefficient});
-  problems.note(path_to(path, "Hourglass Coefficient"),
-                "is taken as Stabilization 'Silling' with the coefficient " + coefficient +
-                    ", which acts on the whole difference, not only along the bond as Peridigm's: displacements of its "
-                    "deck PredictorFromPreviousSolver differ by 2 %, others may by more");
+  problems.note(
+      path_to(path, "Hourglass Coefficient"),
+      "is taken as Stabilization 'Silling' with the coefficient " + coefficient +
+          ", which acts on the whole difference, not only along the bond as Peridigm's: displacements of its "
+          "deck PredictorFromPreviousSolver and stresses differ by 2 %, plastic strains where flow begins by 40 %, "
+          "others may by more");
 }
 
 // Peridigm's switch turns its plastic ordinary solid into the elastic one.
@@ -224,9 +226,10 @@ void straighten(List& filter, const std::string& path, Problems& problems) {
     const auto number = length ? to_real(length->value) : std::nullopt;
     if (number) length->value = to_text(*number / unit);
   }
-  problems.note(path + " > Bottom_Unit_Vector_X", "is no unit vector in the plane: its part there counts, of length " +
-                                                      to_text(unit) +
-                                                      ", in units of whose inverse the edges are, as in Peridigm");
+  problems.note(path + " > Bottom_Unit_Vector_X",
+                "is no unit vector in the plane: its part there counts, of length " + to_text(unit) +
+                    ", in units of whose inverse the edges are, as in Peridigm; bonds that touch an "
+                    "edge are cut, in Peridigm by round-off");
 }
 
 // Peridigm watches nothing: its runs go on, and so do these, with a warning.
