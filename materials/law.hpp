@@ -22,6 +22,9 @@
 //   part_left         optional, for laws that soften as they fail: fraction of stress that a point still carries, 1 to
 //                     0, with the state as an argument. It also scales the stabilization.
 //   set_crack_length  optional: sets the length over which a crack smears its opening, m.
+//   crack_work        optional, for laws whose dissipation opens cracks: the part of dissipation that counts as energy of
+//                     fracture, J per m³ of reference volume; with set_crack, which sets their strength, Pa, and the
+//                     width over which a crack dissipates its energy, m.
 //   stored_energy     optional, for laws that count it: elastic energy, J per m³ of reference volume.
 //   heat              optional, for laws with a temperature: ρ c_p (T − T₀), J per m³ of reference volume.
 //   set_initial_temperature  optional, with heat: K.
@@ -112,6 +115,13 @@ inline constexpr bool softens = requires(const L law, const typename L::State& s
 template <class L>
 inline constexpr bool takes_crack_length = requires(L law, double length) {
   law.set_crack_length(length);
+};
+
+// True if dissipation of the law counts as energy of fracture.
+template <class L>
+inline constexpr bool opens_cracks = requires(L law, const typename L::State& state) {
+  law.set_crack(1.0, 1.0);
+  { law.crack_work(state) } -> std::same_as<double>;
 };
 
 // True if a law has a temperature.

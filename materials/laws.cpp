@@ -16,4 +16,10 @@ std::optional<AnyLaw> failing(const AnyLaw& metal, const Ductility& ductility) {
   return std::nullopt;
 }
 
+std::optional<AnyLaw> cracking(const AnyLaw& solid, double fracture_energy) {
+  const auto* elastic = std::get_if<Elastic>(&solid);
+  if (!elastic) return std::nullopt;
+  return Brittle{.solid = *elastic, .fracture_energy = fracture_energy};
+}
+
 }  // namespace strut::materials

@@ -4,6 +4,7 @@
 #include <optional>
 #include <variant>
 
+#include "materials/brittle.hpp"
 #include "materials/deshpande_fleck.hpp"
 #include "materials/ductile.hpp"
 #include "materials/elastic.hpp"
@@ -17,10 +18,14 @@
 
 namespace strut::materials {
 
-using AnyLaw = std::variant<Elastic, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck, PolymerFoam,
-                            Hyperelastic, UserLaw>;
+using AnyLaw = std::variant<Elastic, Brittle, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck,
+                            PolymerFoam, Hyperelastic, UserLaw>;
 
 // The law of a metal whose points may fail; nullopt if there is none.
 std::optional<AnyLaw> failing(const AnyLaw& metal, const Ductility& ductility);
+
+// The law of an elastic solid that cracks gradually, G_c in J/m²; nullopt for other laws. Its strength and the widths
+// of its cracks depend on the lattice.
+std::optional<AnyLaw> cracking(const AnyLaw& solid, double fracture_energy);
 
 }  // namespace strut::materials

@@ -11,7 +11,9 @@ struct StateVariable {
   std::string_view name, unit, meaning;
 };
 
-inline constexpr std::array<StateVariable, 21> state_variables{{
+inline constexpr std::array<StateVariable, 23> state_variables{{
+    {"Brittle_Damage", "1", "d: fraction of its stiffness in tension that a cracking point has lost"},
+    {"Crack_Work", "J/m³", "dissipation of a cracking point per reference volume, a part of Fracture_Energy"},
     {"Dissipated_Energy_Density", "J/m³", "dissipation so far per reference volume, of elastomers and user libraries"},
     {"Ductile_Damage", "1", "d: fraction of its stress that a softening point has lost"},
     {"Elastic_Energy_Density", "J/m³", "stored elastic energy per reference volume"},

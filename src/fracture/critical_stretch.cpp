@@ -168,6 +168,14 @@ PulledLattice lattice_of(const Body& body, std::size_t b) {
           coefficient_of(material.stabilization)};
 }
 
+void set_gradual_crack(BlockMaterial& material, const GradualCrack& crack) {
+  const auto set = [&crack]<class L>(L& law) {
+    if constexpr (materials::opens_cracks<L>) law.set_crack(crack.strength, crack.width);
+  };
+  std::visit(set, material.law);
+  material.damage->critical_stretch = Function(crack.critical_stretch);
+}
+
 }  // namespace
 
 void set_critical_values(Body& body) {
@@ -176,6 +184,10 @@ void set_critical_values(Body& body) {
     if (!damage || !(damage->fracture_energy > 0)) continue;
     if (!(body.domain.blocks[b].spacing > 0)) continue;  // no points
     const PulledLattice lattice = lattice_of(body, b);
+    if (damage->is_gradual) {
+      set_gradual_crack(body.blocks[b].material, gradual_crack(lattice, damage->fracture_energy));
+      continue;
+    }
     const bool by_energy = damage->critical_bond_energy.has_value();
     const double energy = by_energy ? separation_by_bond_energy(lattice) : energy_of_separation(lattice);
     if (!(energy > 0)) {  // the same on all ranks

@@ -41,6 +41,14 @@ double separation_of_cells(const PulledLattice& lattice);
 // multiply by it.
 double separation_by_bond_energy(const PulledLattice& lattice);
 
+// What a crack that opens gradually needs (materials/brittle.hpp), from its fracture energy, J/m².
+struct GradualCrack {
+  double strength;          // σ_c, Pa
+  double width;             // ℓ, m: 1/(h Σ g²) if the layers beside an opening δ across an axis have the gradients g δ
+  double critical_stretch;  // at which bonds break: root mean square of those across it at the opening 2 G_c/σ_c
+};
+GradualCrack gradual_crack(const PulledLattice& lattice, double fracture_energy);
+
 // Limit of the steepness of families with broken bonds, relative to an interior point: that of points at a corner,
 // which have an eighth of the family. A steeper point carries no stress.
 inline constexpr double steepness_of_corners = 8;

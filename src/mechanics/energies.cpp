@@ -20,6 +20,7 @@ PointEnergy law_energy(const Body& body, const MaterialBlock& block, const L& la
     const double J = point.deformation_gradient.determinant();
     if (carries_stress) sum.elastic += materials::stored_energy_of(law, point.stress, state, J) / places;
     sum.dissipated += law.dissipation(state) / places;
+    if constexpr (materials::opens_cracks<L>) sum.cracks += law.crack_work(state) / places;
     if constexpr (materials::tells_heat<L>) sum.heat += law.heat(state) / places;
     if (!block.viscous.empty()) sum.dissipated += block.viscous[block.place(k, q)].work / places;
   }
@@ -48,12 +49,13 @@ Energies stored_energies(const Body& body) {
       const PointEnergy of_point =
           block.is_ordinary() ? PointEnergy{.elastic = block.ordinary[k].energy} : law_energy(body, block, k);
       sum.elastic += volume * of_point.elastic;
-      sum.dissipated += volume * of_point.dissipated;
+      sum.dissipated += volume * (of_point.dissipated - of_point.cracks);
+      sum.fracture += volume * of_point.cracks;
       sum.heat += volume * of_point.heat;
     }
   }
   sum.stabilization = total(0, body.owned(), [&](int i) { return body.stabilization_work(i) * body.domain.volume(i); });
-  sum.fracture = std::accumulate(body.fracture_energy.begin(), body.fracture_energy.end(), 0.0);
+  sum.fracture = std::accumulate(body.fracture_energy.begin(), body.fracture_energy.end(), sum.fracture);
   double values[] = {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.heat};
   body.domain.communicator.sum(values);
   return {values[0], values[1], values[2], values[3], values[4]};

@@ -8,6 +8,7 @@ namespace strut {
 // The energy that one point stores and has dissipated.
 struct PointEnergy {
   double elastic = 0, dissipated = 0, heat = 0;  // J/m³ of reference volume; heat: ρ c_p (T − T₀)
+  double cracks = 0;                            // the part of the dissipation that counts as energy of fracture
 };
 
 // Energy that the law of block.points[k] has stored and dissipated; not for ordinary points.

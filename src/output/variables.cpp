@@ -187,6 +187,9 @@ std::vector<Observable> observables_of(const deck::Deck& deck, const deck::Probl
   for (const deck::Material& material : deck.materials) {
     laws.push_back(material.law);
     for (const deck::NamedDamageModel& damage : deck.damage_models) {
+      if (damage.model.is_gradual) {
+        if (const auto cracks = materials::cracking(material.law, 1)) laws.push_back(*cracks);
+      }
       if (!damage.model.ductility) continue;
       if (const auto fails = materials::failing(material.law, *damage.model.ductility)) laws.push_back(*fails);
     }

@@ -58,6 +58,7 @@ materials::AnyLaw law_of(const deck::Material& material, const deck::Block& sect
                          const std::optional<DamageModel>& damage) {
   materials::AnyLaw law =
       damage && damage->ductility ? materials::failing(material.law, *damage->ductility).value() : material.law;
+  if (damage && damage->is_gradual) law = materials::cracking(law, damage->fracture_energy).value();
   const auto set_temperature = [&section]<class L>(L& one) {
     if constexpr (materials::tells_heat<L>)
       one.set_initial_temperature(section.initial_temperature.value_or(materials::room_temperature));

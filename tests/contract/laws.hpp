@@ -126,6 +126,7 @@ inline std::vector<std::pair<std::string, materials::ThermalFlow>> thermal_flows
 inline std::vector<NamedLaw> table_of_laws() {
   std::vector<NamedLaw> table;
   table.push_back({"elastic", materials::Elastic{bulk, shear}});
+  table.push_back({"brittle", materials::Brittle{{bulk, shear}}});  // what it does beyond its strength: test_brittle.cpp
   for (const auto& [hardening_name, hardening] : hardenings()) {
     for (const auto& [rate_name, rate] : rates()) {
       table.push_back(

@@ -148,7 +148,7 @@ void expect_descriptions() {
   (expect(L::state_names), ...);
 }
 TEST(StateVariables, HaveEachAUnitAndAMeaning) {
-  expect_descriptions<Elastic, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck, PolymerFoam>();
+  expect_descriptions<Elastic, Brittle, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck, PolymerFoam>();
 }
 
 TEST_P(LawTest, NothingHappensToAnUnloadedPointAtRest) {

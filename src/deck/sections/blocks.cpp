@@ -136,6 +136,12 @@ void check_damage_model(const Values& section, const Material& material, const N
                  "points of material '" + material.name + "' cannot fail by model '" + named.name +
                      "': expected the Material Model 'Elastic Plastic Correspondence' without an Equation of State");
   }
+  if (is_known && model.is_gradual &&
+      (material.formulation != Formulation::quadratic || !materials::cracking(material.law, 1))) {
+    problems.add(section.path_to(damage_model),
+                 "material '" + material.name + "' cannot crack by model '" + named.name +
+                     "': expected the Material Model 'Elastic Correspondence' with Formulation 'Quadratic Correspondence'");
+  }
   if (std::holds_alternative<materials::ShockJ2>(material.law) && !model.ductility) {
     problems.add(section.path_to(damage_model),
                  "bonds of material '" + material.name +

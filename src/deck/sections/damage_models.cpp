@@ -33,6 +33,12 @@ const OptionalKey<double> separation_energy(
      .range = positive,
      .meaning = "G_c of a flat cut through a lattice of the block's spacing; w_c follows."});
 
+const RealKey cohesive_energy(
+    {.name = "Fracture Energy",
+     .unit = "J/m²",
+     .range = positive,
+     .meaning = "G_c. The strength follows: E G_c/σ_c² is 4 spacings, so that the zone that softens is resolved."});
+
 const ExpressionKey stretch_over_time({.name = "Time Dependent Critical Stretch",
                                        .range = positive,
                                        .meaning = "s_c(t), t in s."});
@@ -132,6 +138,13 @@ const std::vector<ModelEntry>& entries() {
         .meaning = "The same with s_c as a function of time.",
         .keys = {stretch_over_time}},
        read_stretch_over_time},
+      {{.name = "Cohesive Crack",
+        .meaning = "The stress of an elastic solid by quadratic correspondence falls where its largest principal value "
+                   "reaches a strength, until a crack has taken G_c; then bonds across it break.",
+        .keys = {cohesive_energy}},
+       [](const Values& v, Problems&) {
+         return DamageModel{.fracture_energy = v[cohesive_energy], .is_gradual = true};
+       }},
       {{.name = "Bond Energy",
         .meaning = "A stretched bond breaks where its energy exceeds w_c (Foster, Silling and Chen 2011). All blocks "
                    "of the body must be ordinary solids (Elastic).",

@@ -81,6 +81,19 @@ TEST(EnergyOfSeparation, TendsToTheContinuum) {
   EXPECT_LT(error(9.1), 0.5 * error(3.015));
 }
 
+// An opening δ of touching cells is δ/(2h) in each of the layers beside it. Of the nine bonds of a cell across it one
+// is stretched by δ/h, four by half and four by a third of that.
+TEST(GradualCrack, OfTouchingCellsOpensOverTwoLayers) {
+  constexpr double spacing = 1e-3, energy = 100, poisson_ratio = 0.25, modulus = 32e9;
+  const materials::Moduli moduli{modulus / 3 / (1 - 2 * poisson_ratio), modulus / 2 / (1 + poisson_ratio)};
+  const GradualCrack crack =
+      gradual_crack({spacing, 1.75 * spacing, Influence::one, Formulation::quadratic, moduli}, energy);
+  EXPECT_NEAR(crack.width, 2 * spacing, 1e-12 * spacing);
+  EXPECT_NEAR(crack.strength, std::sqrt(modulus * energy / (4 * spacing)), 1e-9 * crack.strength);
+  const double last = 2 * energy / crack.strength / spacing, mean = std::sqrt((1 + 4.0 / 4 + 4.0 / 9) / 9);
+  EXPECT_NEAR(crack.critical_stretch, last * mean, 1e-12 * last);
+}
+
 // With K = 5/3 G a bond holds what its own extension has stored, and releases that: each that crosses the plane w_c.
 // There are Σ |ξ_z|/h of them for the volumes h³ of both ends on an area of h²; of a continuum w_c = 4 G_c/(π δ⁴).
 TEST(EnergyOfSeparation, ByBondEnergyIsThatOfAllBondsAcrossThePlane) {

@@ -1,0 +1,79 @@
+// A brittle elastic solid: where its largest principal stress reaches a strength, its stress in tension falls until the
+// point has dissipated G_c over the width of a crack (crack band: Bažant & Oh 1983).
+//   σ = x dev σ̃ + (x if σ̃_m > 0, else 1) σ̃_m I,   σ̃ the stress of the undamaged solid,   d = 1 − x
+//   x σ̃₁ ≤ σ_c (1 − w),   dw = ℓ/G_c Y dd,   Y = dev σ̃ : dev σ̃/(4G) + ⟨σ̃_m⟩²/(2K)
+// In uniaxial tension the stress falls linearly with the strain. A thousandth of the stiffness stays and holds the
+// cells beside a crack in place until the bonds across it break. Units: Pa, s.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string_view>
+#include <type_traits>
+
+#include "materials/elastic.hpp"
+
+namespace strut::materials {
+
+struct Brittle {
+  Elastic solid;
+  double fracture_energy = 0;                                 // G_c, J/m²
+  double strength = std::numeric_limits<double>::infinity();  // σ_c, Pa
+  double width = 1;                                           // ℓ, m
+
+  template <class T>
+  struct StateOf {
+    T damage{};      // d
+    T dissipated{};  // J per m³ of reference volume
+  };
+  using State = StateOf<double>;
+  static constexpr std::array<std::string_view, 2> state_names{"Brittle_Damage", "Crack_Work"};
+
+  template <class T>
+  StressOf<T> step(const StepOf<T>& step, const SymmetricOf<T>& stress, StateOf<T>& state) const {
+    Elastic::StateOf<T> nothing;
+    StressOf<T> result = solid.step(step, stress, nothing);
+    const MaskOf<T> cracks = state.damage > 0 || may_crack<T>(result.stress);
+    if constexpr (std::is_same_v<T, double>) {
+      return cracks ? soften(step, stress, state) : result;
+    } else {
+      if (any(cracks)) [[unlikely]] {
+        const StateOf<T> before = state;
+        for (int l = 0; l < small::lane_count; ++l) {
+          if (cracks[l]) soften_lane(l, step, stress, before, state, result);
+        }
+      }
+      return result;
+    }
+  }
+
+  Moduli moduli() const { return solid.moduli(); }
+  double elastic_energy(const Symmetric& stress, const State& state) const {
+    const double mean = trace(stress) / 3, x = 1 - state.damage;
+    const double whole = mean > 0 ? 0 : mean * mean / (2 * solid.bulk);
+    return whole + solid.elastic_energy(mean > 0 ? stress : Symmetric(deviator(stress))) / x;
+  }
+  double dissipation(const State& state) const { return state.dissipated; }
+  double crack_work(const State& state) const { return state.dissipated; }
+  void set_crack(double to_strength, double to_width) { strength = to_strength, width = to_width; }
+  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
+  double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
+
+ private:
+  // True if an upper bound of the largest principal stress, mean + ⅔ von Mises, is above the strength.
+  template <class T>
+  MaskOf<T> may_crack(const SymmetricOf<T>& stress) const {
+    const SymmetricOf<T> s = deviator(stress);
+    const T room = strength - trace(stress) / 3;
+    return room < 0 || 2.0 / 3 * double_dot(s, s) > room * room;
+  }
+
+  // Not inline: it is rare, and laws are inlined everywhere.
+  PointStress soften(const PointStep& step, const Symmetric& stress, State& state) const;
+  void soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
+                   const StateOf<RawLanes>& state, StateOf<RawLanes>& next, StressOf<RawLanes>& result) const;
+};
+
+static_assert(Law<Brittle> && takes_lanes<Brittle>);
+
+}  // namespace strut::materials
