@@ -93,6 +93,7 @@ deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& 
   if (!next.solver.keeps_velocities) std::ranges::fill(scene.body.velocity, Vector::Zero());
   scene.body.previous_velocity = *scene.body.velocity;
   scene.conditions = {};
+  scene.body.heated.clear();
   scene.tools.clear();
   scene.warnings.clear();
   scene.quasi_static.reset();
