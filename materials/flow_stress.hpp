@@ -79,6 +79,18 @@ struct VoceHardening {
   bool softens() const { return saturation < 0; }
 };
 
+// h = σ_y (1 + ε̄/ε̄₀)^N/(1 + (ε̄/ε̄₁)²)     (Needleman & Tvergaard 1984, as Peridigm has it)
+struct NeedlemanHardening {
+  double reference_strain = 0, exponent = 0, softening_strain = 0;  // ε̄₀, N, ε̄₁
+  template <class T>
+  Curve<T> operator()(double yield_stress, const T& strain) const {
+    const Curve<T> power = PowerHardening{reference_strain, exponent}(yield_stress, strain);
+    const T part = strain / softening_strain, left = 1 / (1 + part * part);
+    return {power.value * left, left * (power.slope - 2 * power.value * left * part / softening_strain)};
+  }
+  bool softens() const { return true; }
+};
+
 // Piecewise linear through (strains, stresses), constant beyond the last; strains increase strictly from 0. The table
 // contains the yield stress (its first value). The slope at a kink is that of the piece to the right.
 struct TableHardening {
@@ -101,8 +113,8 @@ struct TableHardening {
   bool softens() const { return true; }  // unknown without a search of the table
 };
 
-using Hardening =
-    std::variant<NoHardening, LinearHardening, PowerHardening, LudwikHardening, VoceHardening, TableHardening>;
+using Hardening = std::variant<NoHardening, LinearHardening, PowerHardening, LudwikHardening, VoceHardening,
+                               NeedlemanHardening, TableHardening>;
 
 // ---- Rate: ε̇ -> r and dr/dε̇; rate_at(r) is an ε̇ ≥ 0 at which the factor is r ≥ 1, infinity if it never is ---------
 
@@ -149,7 +161,22 @@ struct JohnsonCookRate {
   }
 };
 
-using Rate = std::variant<NoRate, PowerRate, JohnsonCookRate>;
+// r = max(ε̇/ε̇₀, 1)^M     (Needleman & Tvergaard 1984, who let it fall below 1 with the rate)
+struct NeedlemanRate {
+  double reference_rate = 1, exponent = 0;  // ε̇₀ 1/s, M
+  template <class T>
+  Curve<T> operator()(const T& rate) const {
+    const auto is_slow = rate <= reference_rate;  // false if the rate is NaN
+    const T r = exp(exponent * log(rate / reference_rate)), slope = exponent * r / rate;
+    return {is_slow ? same<T>(1) : r, is_slow ? same<T>(0) : slope};
+  }
+  template <class T>
+  T rate_at(const T& factor) const {
+    return reference_rate * exp(log(factor) / exponent);
+  }
+};
+
+using Rate = std::variant<NoRate, PowerRate, JohnsonCookRate, NeedlemanRate>;
 
 struct FlowStress {
   double yield_stress = 0;  // σ_y, Pa; a table contains its own

@@ -28,6 +28,8 @@ Ball around(const RectangularCrack& crack) {
   return {crack.corner + 0.5 * diagonal, crack.normal, 0.5 * diagonal.norm()};
 }
 
+Ball around(const TriangulatedCrack&) { return {}; }
+
 Ball around(const DiskCrack& crack) { return {crack.center, crack.normal, crack.radius}; }
 
 // True if the crack is within the horizon of point i, so that it may cross bonds of the point.
@@ -40,7 +42,7 @@ bool may_part(const Ball& crack, const Domain& domain, int i) {
 std::string cracks_that_cut_nothing(const deck::Deck& deck, const Domain& domain) {
   std::ostringstream text;
   for (const Crack& crack : deck.discretization.cracks) {
-    const Ball ball = std::visit([](const auto& one) { return around(one); }, crack);
+    const Ball ball = std::visit([](const auto& one) { return around(one); }, crack);  // none is of triangles
     const bool cuts = std::any_of(domain.separated.begin(), domain.separated.end(),
                                   [&](const auto& pair) { return may_part(ball, domain, pair.first); });
     if (domain.communicator.max(cuts ? 1.0 : 0.0) > 0) continue;

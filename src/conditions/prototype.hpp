@@ -7,6 +7,7 @@
 #include "conditions/condition.hpp"
 #include "conditions/initial_state.hpp"
 #include "conditions/periodic_sides.hpp"
+#include "conditions/prescribed_temperature.hpp"
 
 namespace strut {
 
@@ -18,13 +19,14 @@ concept ActsOnce = !ConditionType<T> && ActsInEquilibria<T> &&
   { prototype.values_at_points() } -> std::same_as<std::vector<Function>>;
   { prototype.set_initial_state(points, t, body) } -> std::same_as<void>;
 };
-static_assert(ActsOnce<InitialVelocity> && ActsOnce<InitialDisplacement> && ActsOnce<PeriodicSides>);
+static_assert(ActsOnce<InitialVelocity> && ActsOnce<InitialDisplacement> && ActsOnce<PeriodicSides> &&
+              ActsOnce<PrescribedTemperature>);
 
 template <class Conditions>
 struct WithWhatActsOnce;
 template <class... Types>
 struct WithWhatActsOnce<std::variant<Types...>> {
-  using type = std::variant<InitialVelocity, InitialDisplacement, PeriodicSides, Types...>;
+  using type = std::variant<InitialVelocity, InitialDisplacement, PeriodicSides, PrescribedTemperature, Types...>;
 };
 
 using ConditionPrototype = WithWhatActsOnce<Condition>::type;

@@ -12,6 +12,7 @@
 #include "deck/sections/inertia.hpp"
 #include "deck/sections/materials.hpp"
 #include "deck/sections/node_sets.hpp"
+#include "deck/sections/temperatures.hpp"
 #include "deck/sections/written_files.hpp"
 #include "deck/whole.hpp"
 #include "deck/yaml.hpp"
@@ -48,6 +49,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   check_initial_strains(deck.conditions, deck.materials, problems);
   add_numbered_sets(values, file, deck.node_sets, problems);
   deck.start_from = read_start_from(values);
+  check_temperatures(deck, problems);
   deck.solver = read_solver(values, problems);
   deck.next_solver = read_next_solver(values, deck.solver, problems);
   const bool steps_follow = deck.next_solver.has_value();
@@ -85,6 +87,7 @@ std::vector<WrittenFile> written_files(const Deck& deck) {
 
 std::vector<ReadFile> read_files(const Deck& deck) {
   std::vector<ReadFile> read{{"the input mesh", deck.discretization.mesh}, {"this deck", deck.file}};
+  for (const fs::path& shells : deck.discretization.shells) read.push_back({"a mesh of Bond Filters", shells});
   for (const NodeSet& set : deck.node_sets) {
     if (!set.file.empty()) read.push_back({"the file of node set '" + set.name + "'", set.file});
   }
@@ -95,6 +98,13 @@ std::vector<ReadFile> read_files(const Deck& deck) {
 // Files are checked on one rank only: other ranks may not see them, and need not.
 void look_at_files(Deck& deck, Problems& problems) {
   check_mesh(deck.discretization.mesh, problems);
+  for (const fs::path& shells : deck.discretization.shells) {
+    if (fs::is_regular_file(shells)) continue;
+    problems.add("Discretization > Bond Filters",
+                 "'" + shells.string() +
+                     "' is not a file that can be read; expected a mesh of shells, its "
+                     "path relative to the deck's folder");
+  }
   read_numbers(deck.node_sets, problems);
   load_user_libraries(deck.materials, deck.file.parent_path(), problems);
   check_files(written_files(deck), read_files(deck), problems);

@@ -149,7 +149,7 @@ void Fracture::start_step(const Body& body, std::span<const Vector> velocities, 
   }
   const bool is_due = travel_.advance(body, velocities, dt, due, stretch);
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
-  is_looked_at_ = is_due || by_time_ || any_fails || energies_.any();
+  is_looked_at_ = is_due || limits_change(body) || any_fails || energies_.any();
   if (is_looked_at_) keep_start(body);
 }
 
@@ -193,7 +193,7 @@ void Fracture::break_bonds(Body& body, Part part, double time, double dt) {
   static Teuchos::Time& timer = phase("Fracture");
   const Timed timed(timer);
   if (!is_looked_at_) return;
-  if (by_time_ && part == Part::interior) set_limits(body, time);
+  if (limits_change(body) && part == Part::interior) set_limits(body, time);
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
   if (any_fails && part == Part::interior) take_failed(body);
   if (energies_.any() && part == Part::interior) look_around(body, energies_.take_states(body, travel_.last()));
@@ -201,7 +201,7 @@ void Fracture::break_bonds(Body& body, Part part, double time, double dt) {
   over_breakable(body, part, [&](const MaterialBlock& block, int first, int last) {
     for_each_point(first, last, [&](int c) {
       if (!is_of(body, block, c)) return;
-      if (!by_time_ && travel_.of(c) < due_[c]) return;
+      if (!limits_change(body) && travel_.of(c) < due_[c]) return;
       at_limit[c] = is_at_limit(body, block, c);
     });
   });

@@ -59,6 +59,7 @@ class Fracture : public BondBreaking {
   struct Stretches;
 
   void set_limits(const Body& body, double time);
+  bool limits_change(const Body& body) const;
   void set_which(const Body& body);
   void take_failed(const Body& body);
   void look_around(const Body& body, const std::vector<char>& points);
@@ -78,7 +79,7 @@ class Fracture : public BondBreaking {
   std::vector<char> may_fail_;                  // of blocks: their points may fail, and then lose their bonds
   std::vector<int> block_of_;                   // of owned points and ghosts
   std::vector<double> limits_;                  // (1 + s_c)² of owned points and ghosts; infinite without
-  bool by_time_ = false;                        // the limits change with time
+  bool by_time_ = false;                        // the deck's limits change with time
   BondEnergies energies_;                       // of bonds in blocks with a critical bond energy
   bool is_looked_at_ = false;                   // a bond may break in this step
   std::vector<Vector> start_;                   // positions of owned points and ghosts at the start of such a step, m

@@ -30,13 +30,18 @@ void Fracture::set_limits(const Body& body, double time) {
            << " s; expected a number > 0";
       throw Error(text.str());
     }
-    of_block.push_back((1 + s) * (1 + s));
+    of_block.push_back(1 + s);
   }
   limits_.resize(block_of_.size(), 0);
   for (std::size_t i = 0; i < limits_.size(); ++i) {
-    if (limits_[i] != of_failed) limits_[i] = of_block[block_of_[i]];
+    if (limits_[i] == of_failed) continue;
+    const double expansion = body.expansion_of_sites.empty() ? 0 : body.expansion_of_sites[i];
+    const double most = of_block[block_of_[i]] + expansion;  // of |η|/|ξ|
+    limits_[i] = most * most;
   }
 }
+
+bool Fracture::limits_change(const Body& body) const { return by_time_ || !body.heated.empty(); }
 
 // Points that failed in the last step: all of their bonds break, and the clusters of both ends are checked.
 void Fracture::take_failed(const Body& body) {

@@ -47,12 +47,18 @@ void over_bonds(const Cluster& cluster, const StepEnd& end, const Visit& visit) 
 
 Sums sums_of_ordinary(const Cluster& cluster, const StepEnd& end) {
   const bonds::OfCluster family{cluster};
+  const std::vector<PointExpansion>& expansions = end.body.expansion;
   const auto [a, b] = family.own<2>([&end](int i) { return &end.body.force_states.scalars[i].a; });
+  Lanes expanded = Lanes::Ones();
+  for (std::size_t l = 0; l < cluster.points.size() && !expansions.empty(); ++l) {
+    const PointExpansion& point = expansions[cluster.points[l]];
+    expanded[l] += end.at_start ? point.before : point.now;
+  }
   Sums sums;
   over_bonds(cluster, end, [&](const Bond& bond) {
     const Lanes length = (bonds::dot(bond.eta, bond.eta) + bond.absent).sqrt();
     const Lanes rest = (bonds::dot(bond.xi, bond.xi) + bond.absent).sqrt(), extension = length - rest;
-    sums.squares += bond.weight * extension * extension;
+    sums.squares += bond.weight * (length - expanded * rest).square();
     sums.work += bond.weight * (a * rest + b * extension) / length * bonds::dot(bond.eta, bond.moved);
   });
   return sums;
@@ -96,12 +102,14 @@ Sums sums_of_quadratic(const Cluster& cluster, const StepEnd& end) {
   return sums;
 }
 
-// The energy of a point, J/m³.
+// The energy of a point without that which its expansion gave, J/m³.
 double energy_of(const Body& body, const MaterialBlock& block, int k, double squares) {
-  if (block.is_ordinary()) return ordinary_energy(block, block.ordinary[k], squares);
-  const double springs = block.is_quadratic() ? 0 : block.own_springs_of(body.points[block.points[k]]);
+  const int i = block.points[k];
+  const double of_expansion = body.expansion.empty() ? 0 : body.expansion[i].work;
+  if (block.is_ordinary()) return ordinary_energy(block, block.ordinary[k], squares) - of_expansion;
+  const double springs = block.is_quadratic() ? 0 : block.own_springs_of(body.points[i]);
   const PointEnergy of_law = law_energy(body, block, k);
-  return of_law.elastic + of_law.dissipated + 0.5 * springs * squares;
+  return of_law.elastic + of_law.dissipated + 0.5 * springs * squares - of_expansion;
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ struct Ledger {
   double kinetic = 0, elastic = 0, dissipated = 0, stabilization = 0;  // J
   double fracture = 0;                                                 // J, dissipated by bonds that broke
   double heat = 0;          // J, ρ c_p (T − T₀) of metals; for information, not a term of the balance
-  double external = 0;      // J, work of loads and prescribed motion on the points so far
+  double external = 0;      // J, work of loads, prescribed motion and thermal expansion on the points so far
+  double expansion = 0;     // J, of it, by thermal expansion
   double tool_kinetic = 0;  // J, of rigid tools with a mass
   double tools = 0;         // J, work of rigid tools on the points so far; energy that walls take is negative
   // J, work of contact between bodies on the points so far; energy that penalties store and friction takes is negative.

@@ -11,6 +11,7 @@
 
 #include "base/deduplicated.hpp"
 #include "base/fields.hpp"
+#include "mechanics/expansion.hpp"
 #include "mechanics/force_states.hpp"
 #include "mechanics/integration_points.hpp"
 #include "mechanics/material_block.hpp"
@@ -76,6 +77,21 @@ struct PointFields {
                                       .meaning = "1: the bonds left to it hold no deformation gradient",
                                       .kept = true},
                                      When::if_used);
+  PointField<PointExpansion> expansion = fields.add<std::vector<PointExpansion>>(
+      At::point,
+      {{.name = "thermal_strain",
+        .unit = "1",
+        .meaning = "α (T − T₀) by a prescribed temperature",
+        .kept = true,
+        .variable = "Thermal_Strain",
+        .width = 1},
+       {.name = "expansion_pull",
+        .unit = "J/m³",
+        .meaning = "work of expansion, by its strain",
+        .kept = true,
+        .width = 1},
+       {.name = "expansion_work", .unit = "J/m³", .meaning = "work of expansion so far", .kept = true, .width = 1}},
+      When::if_used);
   // Levels of owned points and ghosts, empty without subcycling. Multi-time-stepping chooses and saves them.
   PointField<std::uint8_t> time_levels =
       fields.of_points<std::uint8_t>({.name = "time_levels",
@@ -89,6 +105,9 @@ struct Body : PointFields {
   Domain domain;  // solvers update the current positions y of its sites
   Influence influence = Influence::one;
   std::vector<MaterialBlock> blocks;  // in the order of domain.cloud.block_names
+
+  std::vector<HeatedPoints> heated;        // by conditions
+  std::vector<double> expansion_of_sites;  // ε of owned points and ghosts, where bonds may break
 
   ForceStates force_states;  // of owned points and ghosts
 

@@ -56,9 +56,12 @@ Energies stored_energies(const Body& body) {
   }
   sum.stabilization = total(0, body.owned(), [&](int i) { return body.stabilization_work(i) * body.domain.volume(i); });
   sum.fracture = std::accumulate(body.fracture_energy.begin(), body.fracture_energy.end(), sum.fracture);
-  double values[] = {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.heat};
+  for (std::size_t i = 0; i < body.expansion.size(); ++i) {
+    sum.expansion += body.expansion[i].work * body.domain.volume(static_cast<int>(i));
+  }
+  double values[] = {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.expansion, sum.heat};
   body.domain.communicator.sum(values);
-  return {values[0], values[1], values[2], values[3], values[4]};
+  return {values[0], values[1], values[2], values[3], values[4], values[5]};
 }
 
 }  // namespace strut

@@ -19,7 +19,8 @@ double ordinary_energy(const MaterialBlock& block, const OrdinaryPoint& point, d
 
 struct Energies {
   double elastic = 0, dissipated = 0, stabilization = 0, fracture = 0;  // J
-  double heat = 0;  // J, ρ c_p (T − T₀); for information, not a term of the energy balance
+  double expansion = 0;  // J, done on the body by thermal expansion (expansion.hpp)
+  double heat = 0;       // J, ρ c_p (T − T₀); for information, not a term of the energy balance
 };
 
 // Collective: sums over all ranks. Call it after a stress update with diagnostics.

@@ -15,6 +15,8 @@ StepReport together(const PerThread<StepReport>& reports) {
 
 StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics, BondBreaking* breaking) {
   static Teuchos::Time& deforming = phase("Deformation and stress");
+  set_expansion(body, pass.time, pass.dt);
+  if (breaking && pass.dt > 0 && !body.heated.empty()) exchange_expansion(body);
   PerThread<StepReport> reports;  // one per thread: threads share the strips of a lattice
   const Displacements u{body.domain.sites.data()};
   const auto advance = [&](MaterialBlock& block, const LaneGroups& groups) {
@@ -86,8 +88,8 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_diagnostics
   return report;
 }
 
-StepReport advance_by_any_step(Body& body, double dt, bool with_diagnostics, BondBreaking* breaking) {
-  const StepReport report = advance(body, {.dt = dt, .of_any_size = true}, with_diagnostics, breaking);
+StepReport advance_by_any_step(Body& body, double dt, double time, bool with_diagnostics, BondBreaking* breaking) {
+  const StepReport report = advance(body, {.dt = dt, .of_any_size = true, .time = time}, with_diagnostics, breaking);
   sum_forces(body, with_diagnostics, breaking);
   return report;
 }

@@ -23,6 +23,7 @@ void sum_forces(Body& body, bool with_diagnostics, BondBreaking* breaking = null
 StepReport advance_stress_and_force(Body& body, double dt, bool with_diagnostics, BondBreaking* breaking = nullptr);
 
 // The same for an implicit step of any size: rotations are found to round-off.
-StepReport advance_by_any_step(Body& body, double dt, bool with_diagnostics, BondBreaking* breaking = nullptr);
+StepReport advance_by_any_step(Body& body, double dt, double time, bool with_diagnostics,
+                               BondBreaking* breaking = nullptr);
 
 }  // namespace strut

@@ -32,6 +32,7 @@ struct BlockMaterial {
   Formulation formulation = Formulation::correspondence;
   Viscosity viscosity = {};  // by correspondence
   std::optional<DamageModel> damage = {};
+  double thermal_expansion = 0;  // α, 1/K
 };
 
 // The law's state of the integration point `place`.

@@ -69,7 +69,7 @@ void find_rigid_motion(Body& body) {
     return first;
   };
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (!is_in_place(body, body.blocks[b])) moved[first_of(b)] = 1;
+    if (!is_in_place(body, body.blocks[b]) || expands(body, b)) moved[first_of(b)] = 1;
   }
   body.domain.communicator.max(moved);
   for (std::size_t b = 0; b < blocks.size(); ++b) body.blocks[b].in_rigid_motion = moved[first_of(b)] == 0;

@@ -80,7 +80,8 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
                          stabilization_of(material, damage),
                          material.formulation,
                          {material.linear_viscosity, material.quadratic_viscosity},
-                         damage});
+                         damage,
+                         material.thermal_expansion});
   }
   return materials;
 }
@@ -135,7 +136,8 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
     bonds.back().touching = by_touch && is_alike && !section->across_voids.value_or(false);
     bonds.back().visible_only = !section->across_voids.value_or(!(by_touch && !is_alike));
     const bool any = bonds.back().touching || bonds.back().visible_only;
-    bonds.back().may_lose_bonds = section->damage_model || !deck.discretization.cracks.empty();
+    bonds.back().may_lose_bonds =
+        section->damage_model || !deck.discretization.cracks.empty() || !deck.discretization.shells.empty();
     if (any || material.formulation != Formulation::correspondence) {
       bonds.back().families = FamilyKind::lists;
     }

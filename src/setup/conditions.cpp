@@ -61,6 +61,12 @@ void put(const ActsOnce auto& prototype, const std::string&, const std::vector<i
   prototype.set_initial_state(points, times.begin, scene.body);
 }
 
+// Points have not expanded in the mesh.
+void put(const PrescribedTemperature& prototype, const std::string&, const std::vector<int>& points, int,
+         const Times& times, Scene& scene) {
+  prototype.set_initial_state(points, times.mesh, scene.body);
+}
+
 // If other conditions hold points of a plane in directions not orthogonal to its normal, the plane pushes these points
 // in the directions that are left free: a separate condition for each such direction.
 void put(const SymmetryPlane& prototype, std::vector<int> points, int place, const SharedPoints& shared, Scene& scene) {

@@ -5,6 +5,7 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
+#include "io/exodus/exodus.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "setup/blocks.hpp"
 #include "setup/dropped.hpp"
@@ -68,9 +69,13 @@ Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud
   const Timed timed(phase("Families"));
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   const deck::DegeneratePoints rule = deck.discretization.degenerate;
+  std::vector<Crack> cracks = deck.discretization.cracks;
+  for (const auto& file : deck.discretization.shells) {
+    cracks.emplace_back(TriangulatedCrack{io::read_shells(file, communicator)});
+  }
   PiecesOfPoints before;
   for (;;) {
-    Domain domain = make_domain(std::move(cloud), bonds, communicator, deck.discretization.cracks, mirrors, periods);
+    Domain domain = make_domain(std::move(cloud), bonds, communicator, cracks, mirrors, periods);
     std::string text;
     const std::vector<int> degenerate = degenerate_points(deck, domain, text);
     const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));

@@ -96,6 +96,7 @@ deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, Scene& scen
   if (!next.solver.keeps_velocities) std::ranges::fill(scene.body.velocity, Vector::Zero());
   scene.body.previous_velocity = *scene.body.velocity;
   scene.conditions = {};
+  scene.body.heated.clear();
   scene.tools.clear();
   scene.warnings.clear();
   scene.quasi_static.reset();

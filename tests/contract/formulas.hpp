@@ -22,6 +22,10 @@ struct PrintedHardening {
   double operator()(const materials::VoceHardening& h) const {
     return yield + h.saturation * (1 - std::exp(-h.rate * strain));
   }
+  double operator()(const materials::NeedlemanHardening& h) const {
+    return yield * std::pow(1 + strain / h.reference_strain, h.exponent) /
+           (1 + std::pow(strain / h.softening_strain, 2));
+  }
   double operator()(const materials::TableHardening& h) const {
     for (std::size_t i = 1; i < h.strains.size(); ++i) {
       const double place = (strain - h.strains[i - 1]) / (h.strains[i] - h.strains[i - 1]);
@@ -37,6 +41,9 @@ struct PrintedRate {
   double operator()(const materials::PowerRate& r) const { return std::pow(1 + rate / r.reference_rate, r.exponent); }
   double operator()(const materials::JohnsonCookRate& r) const {
     return 1 + r.coefficient * std::log(std::max(rate / r.reference_rate, 1.0));
+  }
+  double operator()(const materials::NeedlemanRate& r) const {
+    return std::pow(std::max(rate / r.reference_rate, 1.0), r.exponent);
   }
 };
 

@@ -75,6 +75,7 @@ inline const std::vector<std::pair<std::string, materials::Hardening>>& hardenin
       {"power", PowerHardening{0.00218, 0.1}},
       {"ludwik", LudwikHardening{292e6, 0.31}},
       {"voce", VoceHardening{150e6, 8}},
+      {"needleman", NeedlemanHardening{0.00218, 0.1, 0.436}},
       {"table", TableHardening{{0, 0.002, 0.05, 0.3}, {50e6, 70e6, 150e6, 180e6}}},
       {"softening", LinearHardening{-20e6}},
       {"softening_table", TableHardening{{0, 0.01, 0.2, 0.5}, {50e6, 80e6, 60e6, 40e6}}},
@@ -89,6 +90,7 @@ inline const std::vector<std::pair<std::string, materials::Rate>>& rates() {
       {"weak_power", PowerRate{1e-3, 0.01}},
       {"strong_power", PowerRate{1e-3, 0.1}},
       {"johnson_cook", JohnsonCookRate{1, 0.025}},
+      {"needleman", NeedlemanRate{1e-3, 0.01}},
   };
   return table;
 }

@@ -37,6 +37,10 @@ const RealKey saturation({.name = "Saturation Stress", .unit = "Pa", .range = no
 const RealKey rate({.name = "Saturation Rate", .range = not_negative, .meaning = "b."});
 }  // namespace voce
 
+namespace needleman {
+const RealKey softening({.name = "Softening Strain", .range = positive, .meaning = "ε̄₁."});
+}  // namespace needleman
+
 const std::vector<HardeningEntry>& hardenings() {
   static const std::vector<HardeningEntry> entries = {
       {{.name = "None", .meaning = "h = σ_y."}, [](const Values&) -> Hardening { return NoHardening{}; }},
@@ -55,6 +59,14 @@ const std::vector<HardeningEntry>& hardenings() {
       {{.name = "Voce", .meaning = "h = σ_y + Q (1 − exp(−b ε̄)).", .keys = {voce::saturation, voce::rate}},
        [](const Values& v) -> Hardening {
          return VoceHardening{.saturation = v[voce::saturation], .rate = v[voce::rate]};
+       }},
+      {{.name = "Needleman",
+        .meaning = "h = σ_y (1 + ε̄/ε̄₀)^N/(1 + (ε̄/ε̄₁)²).",
+        .keys = {power::reference, power::exponent, needleman::softening}},
+       [](const Values& v) -> Hardening {
+         return NeedlemanHardening{.reference_strain = v[power::reference],
+                                   .exponent = v[power::exponent],
+                                   .softening_strain = v[needleman::softening]};
        }},
       {{.name = table_name,
         .meaning = "h is piecewise linear, and constant beyond the last strain. The first stress is the yield stress.",
@@ -80,6 +92,10 @@ const std::vector<RateEntry>& rates() {
       {{.name = "Power Law", .meaning = "r = (1 + ε̇/ε̇₀)^M.", .keys = {reference_rate, rate_exponent}},
        [](const Values& v) -> Rate {
          return PowerRate{.reference_rate = v[reference_rate], .exponent = v[rate_exponent]};
+       }},
+      {{.name = "Needleman", .meaning = "r = max(ε̇/ε̇₀, 1)^M.", .keys = {reference_rate, rate_exponent}},
+       [](const Values& v) -> Rate {
+         return NeedlemanRate{.reference_rate = v[reference_rate], .exponent = v[rate_exponent]};
        }},
       {{.name = "Johnson-Cook", .meaning = "r = 1 + C ln(max(ε̇/ε̇₀, 1)).", .keys = {reference_rate, rate_coefficient}},
        [](const Values& v) -> Rate {

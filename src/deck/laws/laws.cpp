@@ -26,12 +26,9 @@ materials::AnyLaw make_elastic(const Values& material, Problems& problems) {
 
 const std::vector<LawEntry>& laws() {
   static const std::vector<LawEntry> entries = {
-      {elastic_ordinary(), make_elastic, false},
-      {elastic(), make_elastic},
-      {metal_section(), make_metal},
-      {metal_foam_section(), make_metal_foam},
-      {polymer_foam_section(), make_polymer_foam},
-      {hyperelastic_section(), make_hyperelastic},
+      {elastic_ordinary(), make_elastic, false, true}, {elastic(), make_elastic, true, true},
+      {metal_section(), make_metal, true, true},       {metal_foam_section(), make_metal_foam},
+      {polymer_foam_section(), make_polymer_foam},     {hyperelastic_section(), make_hyperelastic},
       {user_library_section(), make_user_library},
   };
   return entries;

@@ -14,6 +14,7 @@ struct LawEntry {
   Section schema;  // named by the values of "Material Model"
   materials::AnyLaw (*make)(const Values& material, Problems& problems);
   bool by_correspondence = true;  // it then also has the keys of all such laws
+  bool expands = false;           // it has a Thermal Expansion Coefficient
 };
 
 const std::vector<LawEntry>& laws();

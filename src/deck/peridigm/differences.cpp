@@ -124,6 +124,10 @@ class Differences {
       problems_.note(path,
                      "integrates the rate of deformation at the middle of a step, Peridigm at its end: stresses differ "
                      "by half a step's strain, relative to the strain");
+      if (real_of(material, "Thermal Expansion Coefficient").value_or(0) != 0) {
+        problems_.note(path_to(path, "Thermal Expansion Coefficient"),
+                       "α: a free body is stretched by 1 + α ΔT; in Peridigm by exp(α ΔT), about, as it adds up rates");
+      }
       if (model.starts_with("Elastic Plastic")) {
         tell_of_field("Equivalent_Plastic_Strain",
                       "is what the yield condition asks for; Peridigm's is some 10 % lower, the more the larger the "
@@ -185,17 +189,24 @@ bool has_peridigms_output(List& deck) {
   });
 }
 
+bool has_peridigms_law(List& deck) {
+  const List* materials = find_list(deck, "Materials");
+  return materials && std::ranges::any_of(materials->lists, [](const List& one) {
+           const std::string model = value_of(one, "Material Model");
+           return model.starts_with("Viscoplastic") || model.starts_with("Isotropic Hardening");
+         });
+}
+
 }  // namespace
 
 bool is_peridigms(List& deck) {
   const auto section = [&](const char* name) { return find_list(deck, name); };
   List* mesh = section("Discretization");
-  return deck.name == "Peridigm" || has_missing_ability(deck) || section("Compute Class Parameters") ||
-         has_peridigms_output(deck) || has_peridigms_solver(deck) ||
+  return deck.name == "Peridigm" || has_missing_ability(deck) || has_peridigms_law(deck) ||
+         section("Compute Class Parameters") || has_peridigms_output(deck) || has_peridigms_solver(deck) ||
          (mesh && has_any(*mesh, {"Omit Bonds Between Blocks", "Store Exodus Mesh"})) ||
-         any_section_has(section("Materials"),
-                         {"Hourglass Coefficient", "Apply Shear Correction Factor", "Enable Flaw", "Disable Plasticity",
-                          "Thermal Expansion Coefficient", "Apply Automatic Differentiation Jacobian"});
+         any_section_has(section("Materials"), {"Hourglass Coefficient", "Apply Shear Correction Factor", "Enable Flaw",
+                                                "Disable Plasticity", "Apply Automatic Differentiation Jacobian"});
 }
 
 bool may_be_peridigms(List& deck) {

@@ -42,9 +42,6 @@ const std::map<std::string, std::string> missing_laws = {
     {"Elastic Bond Associated Correspondence", associated},
     {"Elastic Plastic Bond Associated Correspondence", associated},
     {"Isotropic Hardening Bond Associated Correspondence", associated},
-    {"Viscoplastic Needleman Correspondence",
-     "it is not there: Hardening and Rate 'Power Law' of 'Elastic Plastic Correspondence' come nearest, without its "
-     "softening (Reference Strain 1) and with the rate factor (1 + rate/rate_0)^M in place of (rate/rate_0)^M"},
 };
 
 const std::map<std::string, std::string> missing_damage = {
@@ -59,14 +56,15 @@ const std::map<std::string, std::string> missing_damage = {
 };
 
 const std::string no_heat =
-    "no heat flows here, and no body expands by it (a metal's own temperature begins with "
-    "Blocks > Initial Temperature)";
+    "no heat flows here: 'Prescribed Temperature' expands bodies, and a metal's own temperature begins with Blocks > "
+    "Initial Temperature";
 const std::string no_species = "no fluid and no species flow here";
 
 // Conditions, by the words that their types hold.
 std::string missing_condition(const std::string& type) {
   const std::string words = tidied(type);
   const auto holds = [&words](const char* word) { return words.find(word) != std::string::npos; };
+  if (words == "prescribed temperature") return "";
   if (holds("temperature") || holds("thermal") || holds("heat")) return no_heat;
   if (holds("fluid") || holds("concentration") || holds("pressure")) return no_species;
   return "";

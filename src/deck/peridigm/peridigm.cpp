@@ -19,6 +19,8 @@ Named* find(std::vector<Named>& all, const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+const char* const needleman = "Viscoplastic Needleman Correspondence";
+
 // A key whose only value with a meaning here is the one that switches it off. Another value is an error, or only told.
 struct OnlyOff {
   const char *key, *off, *what;
@@ -28,7 +30,6 @@ const OnlyOff only_off[] = {
     {"Apply Shear Correction Factor", "false",
      "there is no correction of moduli at surfaces (Peridigm 1.6 has it for 'Elastic Plastic Hardening' alone)", true},
     {"Enable Flaw", "false", "there are no flaws in a material; make them in the mesh"},
-    {"Thermal Expansion Coefficient", "0", "there is no thermal expansion"},
     {"Apply Automatic Differentiation Jacobian", "", "equilibria are found in another way"},
     {"Finite Difference Probe Length", "", "equilibria are found in another way"},
 };
@@ -116,18 +117,62 @@ void translate_isotropic_hardening(List& material) {
   material.lists.push_back(hardening);
 }
 
+// σ̄ = σ_y (1 + ε̄/ε̄₀)^N/(1 + (ε̄/ε̄₁)²) (ε̇/ε̇₀)^M
+void translate_needleman(List& material, const std::string& path, Problems& problems) {
+  Parameter* model = find_parameter(material, "Material Model");
+  if (!model || model->value != needleman) return;
+  model->value = "Elastic Plastic Correspondence";
+  List hardening{"Hardening", {{"Type", "string", "Needleman"}}, {}},
+      rate{"Rate", {{"Type", "string", "Needleman"}}, {}};
+  const auto move = [&material](const char* from, List& section, const char* to) {
+    const Parameter* given = find_parameter(material, from);
+    if (!given) return;
+    section.parameters.push_back({to, given->type, given->value});
+    erase_parameter(material, from);
+  };
+  move("Strain Hardening Exponent", hardening, "Exponent");
+  move("Reference Strain 0", hardening, "Reference Strain");
+  move("Reference Strain 1", hardening, "Softening Strain");
+  move("Rate Hardening Exponent", rate, "Exponent");
+  move("Reference Strain Rate", rate, "Reference Rate");
+  material.lists.push_back(hardening), material.lists.push_back(rate);
+  problems.note(
+      path_to(path, "Reference Strain Rate"),
+      "is the slowest rate that counts: below it the flow stress is that of this rate, in Peridigm it falls on; "
+      "above it the law is the same, but Peridigm looks for the flow at other strains than it then takes");
+}
+
+// Bonds that break by stretch count what is beyond the expansion of the material, where Peridigm has a key of its own.
+void drop_expansion_of_bonds(List& deck, Problems& problems) {
+  List *models = find_list(deck, "Damage Models"), *materials = find_list(deck, "Materials");
+  if (!models || !materials) return;
+  const std::string key = "Thermal Expansion Coefficient";
+  for (List& model : models->lists) {
+    const auto given = real_of(model, key);
+    if (!given) continue;
+    const bool is_same =
+        std::ranges::all_of(materials->lists, [&](const List& one) { return real_of(one, key).value_or(0) == *given; });
+    const std::string path = path_to("Damage Models > " + model.name, key);
+    if (!is_same)
+      problems.note(path, "has no effect here: the stretch of a bond counts beyond the expansion of its material");
+    erase_parameter(model, key);
+  }
+}
+
 void translate_materials(List& deck, Problems& problems) {
   List* materials = find_list(deck, "Materials");
   if (!materials) return;
   for (List& material : materials->lists) {
     const std::string path = "Materials > " + material.name;
     translate_isotropic_hardening(material);
+    translate_needleman(material, path, problems);
     translate_disabled_plasticity(material, path, problems);
     drop_hourglass(material, path, problems);
     translate_hourglass(material, path, problems);
     drop_flaw(material);
     drop_what_is_off(material, path, problems);
   }
+  drop_expansion_of_bonds(deck, problems);
 }
 
 // Converts a horizon for all blocks, as in older decks.
@@ -256,7 +301,8 @@ void translate_conditions(List& deck) {
     Parameter* axis = find_parameter(condition, "Coordinate");
     if (axis && axis->value.size() == 1) axis->value = tidied(axis->value);
     Parameter* type = find_parameter(condition, "Type");
-    for (const char* known : {"Initial Displacement", "Initial Velocity", "Prescribed Displacement", "Body Force"}) {
+    for (const char* known : {"Initial Displacement", "Initial Velocity", "Prescribed Displacement",
+                              "Prescribed Temperature", "Body Force"}) {
       if (type && tidied(type->value) == tidied(known)) type->value = known;
     }
   }

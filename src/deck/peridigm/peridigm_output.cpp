@@ -37,7 +37,7 @@ const std::map<std::string, std::string> missing_fields = {
     {"Stress", "there is Cauchy_Stress"},
     {"Surface_Correction_Factor", "it would be 1 everywhere"},
     {"Neighborhood_Volume", ""},
-    {"Temperature_Change", "there is none"},
+    {"Temperature_Change", "there is Thermal_Strain, which is α times that"},
     {"External_Force_Density", "Force_Density holds the loads"},
     {"Lambda", "there is Equivalent_Plastic_Strain"},
     {"Jacobian_Determinant", "there is Jacobian"},

@@ -48,6 +48,10 @@ const RealKey side_length(
 const ComponentKeys center("Center", "m", "Center of the disk.");
 const RealKey radius({.name = "Radius", .unit = "m", .range = positive, .meaning = "Radius of the disk."});
 
+const TextKey shells({.name = "File Name",
+                      .meaning = "Mesh of triangles and quadrilaterals (Exodus), relative to the deck's folder."});
+const char* const of_shells = "Exodus Mesh";
+
 std::vector<Key> keys_of(const std::vector<ComponentKeys>& vectors, const std::vector<Key>& others) {
   std::vector<Key> keys;
   for (const ComponentKeys& vector : vectors) keys.insert(keys.end(), vector.axes.begin(), vector.axes.end());
@@ -69,8 +73,8 @@ Crack read_disk(const Values& values, Problems& problems) {
 }
 
 struct FilterEntry {
-  Section schema;  // named by the values of "Type"
-  Crack (*read)(const Values& values, Problems& problems);
+  Section schema;                                           // named by the values of "Type"
+  Crack (*read)(const Values& values, Problems& problems);  // null for files
 };
 
 const std::vector<FilterEntry>& entries() {
@@ -79,7 +83,12 @@ const std::vector<FilterEntry>& entries() {
         .meaning = "A rectangle.",
         .keys = keys_of({normal, corner, bottom}, {bottom_length, side_length})},
        read_rectangle},
-      {{.name = "Disk", .meaning = "A disk.", .keys = keys_of({normal, center}, {radius})}, read_disk}};
+      {{.name = "Disk", .meaning = "A disk.", .keys = keys_of({normal, center}, {radius})}, read_disk},
+      {{.name = of_shells,
+        .meaning = "The surface of a mesh of shells; a quadrilateral is two triangles. Every bond looks at every "
+                   "triangle.",
+        .keys = {shells}},
+       nullptr}};
   return all;
 }
 
@@ -95,9 +104,19 @@ Section bond_filters_section() {
 std::vector<Crack> read_bond_filters(const Values& discretization, Problems& problems) {
   std::vector<Crack> cracks;
   for (const Values& section : discretization.section(name).sections()) {
-    if (const FilterEntry* entry = chosen_of(entries(), section)) cracks.push_back(entry->read(section, problems));
+    const FilterEntry* entry = chosen_of(entries(), section);
+    if (entry && entry->read) cracks.push_back(entry->read(section, problems));
   }
   return cracks;
+}
+
+std::vector<std::filesystem::path> read_shell_filters(const Values& discretization,
+                                                      const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const Values& section : discretization.section(name).sections()) {
+    if (section.chosen() == of_shells) files.push_back(folder / section[shells]);
+  }
+  return files;
 }
 
 }  // namespace strut::deck

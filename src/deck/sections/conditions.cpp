@@ -29,6 +29,20 @@ ConditionPrototype read_initial_velocity(const Values& values, Problems&) {
   return InitialVelocity{.components = values[components], .value = values[value]};
 }
 
+ConditionPrototype read_temperature(const Values& values, Problems&) {
+  return PrescribedTemperature{.value = values[value]};
+}
+
+Section prescribed_temperature() {
+  Key of_unit = value;
+  of_unit.unit = "K";
+  return {.name = "Prescribed Temperature",
+          .meaning =
+              "Temperature T at every time: materials with a Thermal Expansion Coefficient α have the thermal strain "
+              "α (T − T₀), T₀ at the initial time (of the first solver). Where several overlap, the last one counts.",
+          .keys = {of_unit}};
+}
+
 ConditionPrototype read_initial_displacement(const Values& values, Problems&) {
   return InitialDisplacement{.components = values[components], .value = values[value]};
 }
@@ -109,6 +123,7 @@ const std::vector<ConditionEntry>& entries() {
        read_prescribed_motion<false>},
       {along_axes("Prescribed Velocity", "m/s", "Velocity at every time."), read_prescribed_motion<true>},
       {along_axes("Body Force", "N/m³", "Force per reference volume. Several at a point add up."), read_body_force},
+      {prescribed_temperature(), read_temperature},
       {symmetry_plane_section(), read_symmetry_plane},
       {rigid_plane_section(), read_rigid_plane},
       {rigid_cylinder_section(), read_rigid_cylinder},
@@ -131,11 +146,10 @@ Condition read_condition(const Values& values, Problems& problems) {
 
 Section conditions_section() {
   const std::string no_temperature = "no heat flows here";
-  Key type = {.name = "Type",
-              .meaning = "Kind.",
-              .hints = {{"Prescribed Temperature", no_temperature},
-                        {"Initial Temperature", "write it as Blocks > Initial Temperature"},
-                        {"Thermal Flux", no_temperature}}};
+  Key type = {
+      .name = "Type",
+      .meaning = "Kind.",
+      .hints = {{"Initial Temperature", "write it as Blocks > Initial Temperature"}, {"Thermal Flux", no_temperature}}};
   Section one = {.name = any_name, .meaning = "One condition.", .keys = {node_set}};
   return {.name = boundary_conditions,
           .meaning =

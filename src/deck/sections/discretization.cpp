@@ -145,7 +145,8 @@ Discretization read_discretization(const Values& deck, const fs::path& deck_file
           .points = values[points],
           .influence = values[influence],
           .degenerate = values[degenerate],
-          .cracks = read_bond_filters(values, problems)};
+          .cracks = read_bond_filters(values, problems),
+          .shells = read_shell_filters(values, deck_file.parent_path())};
 }
 
 void check_mesh(const fs::path& mesh, Problems& problems) {

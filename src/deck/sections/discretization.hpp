@@ -30,7 +30,8 @@ struct Discretization {
   Points points{};             // position of the points; nodes: of Exodus meshes only
   Influence influence{};
   DegeneratePoints degenerate{};
-  std::vector<Crack> cracks;  // no bond crosses these
+  std::vector<Crack> cracks;                  // no bond crosses these
+  std::vector<std::filesystem::path> shells;  // nor the surfaces in these files, as `mesh`
 };
 
 Section discretization_section();

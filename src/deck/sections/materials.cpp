@@ -52,6 +52,14 @@ const RealKey linear_viscosity(
 const RealKey quadratic_viscosity(
     {.name = "Quadratic Viscosity", .range = not_negative, .fallback = "0", .meaning = "b₂. Usual: 1.2."});
 
+const RealKey thermal_expansion(
+    {.name = "Thermal Expansion Coefficient",
+     .unit = "1/K",
+     .fallback = "0",
+     .meaning =
+         "α: points of a condition 'Prescribed Temperature' have the thermal strain α (T − T₀), T₀ at the initial "
+         "time. Metals that know their own temperature have none."});
+
 void check_needs_no_stabilization(const Values& values, Problems& problems) {
   for (const Key& key : {Key(stabilization), Key(stabilization_coefficient)}) {
     if (!values.given(key) || (values.has(stabilization) && residual_of(values[stabilization]) == ResidualKind::none))
@@ -77,6 +85,7 @@ void read_correspondence(const Values& values, Material& material, Problems& pro
 std::vector<Section> cases() {
   std::vector<Section> all = schemas_of(laws());
   for (std::size_t i = 0; i < all.size(); ++i) {
+    if (laws()[i].expands) all[i].keys.push_back(thermal_expansion);
     if (!laws()[i].by_correspondence) continue;
     all[i].keys.insert(all[i].keys.end(),
                        {formulation, stabilization, stabilization_coefficient, linear_viscosity, quadratic_viscosity});
@@ -85,12 +94,18 @@ std::vector<Section> cases() {
 }
 
 Key model() {
-  const std::string power_laws = "its power laws are those of 'Elastic Plastic Correspondence', Hardening and Rate";
   return {.name = "Material Model",
           .meaning = "Constitutive law.",
-          .hints = {{"Elastic Plastic", "did you mean 'Elastic Plastic Correspondence'?"},
-                    {"Viscoplastic Needleman Correspondence",
-                     "did you mean 'Elastic Plastic Correspondence'? " + power_laws}}};
+          .hints = {{"Elastic Plastic", "did you mean 'Elastic Plastic Correspondence'?"}}};
+}
+
+void read_expansion(const Values& values, Material& material, Problems& problems) {
+  material.thermal_expansion = values[thermal_expansion];
+  const bool knows_temperature = std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
+  if (material.thermal_expansion == 0 || !knows_temperature) return;
+  problems.add(values.path_to(thermal_expansion),
+               "given, but this metal's temperature follows from its flow, by which it does not expand; expected none, "
+               "or no Softening, other Flow Stress, Heating, Equation of State and Shear Modulus Slope");
 }
 
 Material read_material(const Values& values, Problems& problems) {
@@ -100,6 +115,7 @@ Material read_material(const Values& values, Problems& problems) {
   material.formulation = Formulation::ordinary;
   if (law->by_correspondence) read_correspondence(values, material, problems);
   material.law = law->make(values, problems);
+  if (law->expands) read_expansion(values, material, problems);
   return material;
 }
 
@@ -115,7 +131,10 @@ Section materials_section() {
            .required = true,
            .meaning = "One material.",
            .keys = constants_keys(),
-           .hints = {{"Hourglass Coefficient",
+           .hints = {{"Thermal Expansion Coefficient",
+                      "unknown key; 'Elastic', 'Elastic Correspondence' and 'Elastic Plastic Correspondence' expand by "
+                      "heat, other laws do not"},
+                     {"Hourglass Coefficient",
                       "unknown key; 'Stabilization Coefficient' is its counterpart, but another quantity: in units of "
                       "(λ + 2μ)/(tr K/3), and about twice the Hourglass Coefficient for the same effect"},
                      {"Strain Hardening Exponent", "unknown key; write it as Hardening > Exponent (Type 'Power Law')"},

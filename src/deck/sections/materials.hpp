@@ -23,6 +23,7 @@ struct Material {
   Stabilization stabilization = NoStabilization();  // without its coefficient
   std::optional<double> stabilization_coefficient;
   double linear_viscosity{}, quadratic_viscosity{};
+  double thermal_expansion = 0;  // α, 1/K, by a prescribed temperature
 };
 
 Section materials_section();

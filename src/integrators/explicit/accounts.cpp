@@ -11,7 +11,8 @@
 namespace strut {
 
 void EnergyAccount::go_on_from(const Ledger& before, bool on_this_rank, double in_contact) {
-  if (on_this_rank) done_.external = before.external, done_.tools = before.tools, done_.contact = before.contact;
+  if (on_this_rank)
+    done_.external = before.external - before.expansion, done_.tools = before.tools, done_.contact = before.contact;
   done_.contact += in_contact;
   largest_ = std::max(largest_, before.largest);
 }
@@ -45,7 +46,6 @@ Ledger EnergyAccount::ledger(const Body& body, const Conditions& conditions, con
   now.kinetic = sums[0];
   now.tool_kinetic = kinetic_energy_of_tools(conditions);
   now.contact = sums[1];
-  now.external = sums[2];
   now.tools = sums[3];
   now.momentum = Vector(sums[4], sums[5], sums[6]);
   now.elastic = stored.elastic;
@@ -53,6 +53,8 @@ Ledger EnergyAccount::ledger(const Body& body, const Conditions& conditions, con
   now.stabilization = stored.stabilization;
   now.fracture = stored.fracture;
   now.heat = stored.heat;
+  now.expansion = stored.expansion;
+  now.external = sums[2] + now.expansion;
   const double held = now.kinetic + now.tool_kinetic + now.elastic + now.dissipated + now.stabilization + now.fracture;
   now.balance(held, initial_ + now.tools + now.contact + now.external, largest_);
   return now;

@@ -66,7 +66,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
 
 void CentralDifference::start(const std::vector<std::uint8_t>& pushed) {
   body_.time_levels->clear();
-  StepReport report = advance_stress(body_, 0, true, 0, breaking());
+  StepReport report = advance_stress(body_, 0, true, time_, breaking());
   reassign_levels(report, pushed);
   sum_all_forces(true);
   agree(report);
@@ -151,7 +151,7 @@ StepReport CentralDifference::substep(int level, double t) {
   const int count = static_cast<int>(moved.size());
   for_each_point(0, count, [&](int n) { drift(moved[n], steps); });
   const double impulse_time = std::ldexp(dt(), -level);
-  const StepReport report = multi_stepping_.forces(body_, level, impulse_time);
+  const StepReport report = multi_stepping_.forces(body_, level, impulse_time, t);
   for_each_point(0, count, [&](int n) { kick(moved[n], impulse_time); });
   ReactionImpulses& impulses = reactions_.of_substeps();
   const std::vector<Vector> of_sides = mirror_forces(body_, level, &moved);

@@ -156,10 +156,11 @@ void MultiTimeStepping::set_moment_errors(const Body& body, Level& level) {
   });
 }
 
-StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
+StepReport MultiTimeStepping::forces(Body& body, int level, double dt, double time) {
   Level& now = levels_[level - 1];
   StepReport report;
   now.halo.exchange_places(body.domain.sites);
+  set_expansion(body, time, dt, level);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     MaterialBlock& block = body.blocks[b];
     if (block.in_rigid_motion || now.stressed[b].places.empty()) continue;

@@ -49,7 +49,7 @@ class MultiTimeStepping {
 
   // Collective. At a time of this level, `dt` (s) after the last: updates the stresses of the points that are due, and
   // sets body.force_density of the moved points to the force of these stresses, for an impulse over dt.
-  StepReport forces(Body& body, int level, double dt);
+  StepReport forces(Body& body, int level, double dt, double time);
 
  private:
   // The points and lists for the times of one level.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
@@ -42,7 +43,9 @@ double round_off_of_places(const Body& body) {
 
 // Root of the sum of squares over all points, N: the forces that are left in a body at rest.
 double forces_at_rest(Body& body) {
-  advance_by_any_step(body, 1, false);  // any length: laws in rate form see nothing in a step of no length
+  const std::vector<HeatedPoints> heated = std::exchange(body.heated, {});  // a cold body
+  advance_by_any_step(body, 1, 0, false);  // any length: laws in rate form see nothing in a step of no length
+  body.heated = heated;
   double sum = 0;
   for (int i = 0; i < body.owned(); ++i) sum += (body.domain.volume(i) * body.force_density[i]).squaredNorm();
   return std::sqrt(body.domain.communicator.sum(sum));
@@ -85,6 +88,22 @@ void Equilibrium::begin(double t, double dt) {
   constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
   tools_.begin(body_, t, dt);
   check_values();
+  expansion_scale_ = body_.heated.empty() ? 0 : force_of_expansion();
+}
+
+// Root of the sum of squares over all points, N: by the expansion of this step while the points stay. A free body has
+// no other forces.
+double Equilibrium::force_of_expansion() {
+  advance(0, t_, false);
+  const std::vector<Vector> before = body_.force_density;
+  committed_.restore_materials(body_);
+  advance(dt_, t_ + dt_, false);
+  double sum = 0;
+  for (int i = 0; i < body_.owned(); ++i) {
+    sum += (body_.domain.volume(i) * (body_.force_density[i] - before[i])).squaredNorm();
+  }
+  committed_.restore_materials(body_);
+  return std::sqrt(body_.domain.communicator.sum(sum));
 }
 
 void Equilibrium::stretch_sides(double t) { body_.domain.halo.set_stretch(stretch_at(body_.domain.periods, t)); }
@@ -108,7 +127,7 @@ Imbalance Equilibrium::evaluate(bool with_diagnostics) {
   static Teuchos::Time& timer = phase("Trials");
   const Timed timed(timer);
   committed_.restore_materials(body_);
-  const StepReport report = advance(dt_, with_diagnostics);
+  const StepReport report = advance(dt_, t_ + dt_, with_diagnostics);
   failure_ = report.failure;
   residual_ = body_.force_density;
   for (int i = 0; i < body_.owned(); ++i) inner_[i] = body_.domain.volume(i) * residual_[i];
@@ -137,8 +156,8 @@ void Equilibrium::add_contact() {
   contact_.add_trial_forces(kinematics, step_way(), body_.force_density);
 }
 
-void Equilibrium::begin_strained() {
-  advance(0, true);
+void Equilibrium::begin_strained(double t) {
+  advance(0, t, true);
   mirror_forces_before_ = mirror_forces(body_);
   add_contact();
   for (int i = 0; i < body_.owned(); ++i) outer_before_[i] = -body_.domain.volume(i) * body_.force_density[i];
@@ -173,7 +192,8 @@ Imbalance Equilibrium::measure(bool failed) {
     sums[1] += (outer_[i] + of_tools[i]).squaredNorm();
   }
   body_.domain.communicator.sum(sums);
-  Imbalance now{std::sqrt(sums[0]), std::sqrt(sums[1] + square_of_side_forces(body_, mirror_forces_)), round_off_,
+  const double of_sides = square_of_side_forces(body_, mirror_forces_);
+  Imbalance now{std::sqrt(sums[0]), std::sqrt(sums[1] + of_sides + expansion_scale_ * expansion_scale_), round_off_,
                 sums[2] > 0};
   if (!std::isfinite(now.norm + now.scale)) now.failed = true;
   last_scale_ = now.scale;
@@ -225,7 +245,7 @@ void Equilibrium::begin_flow_of_cells() {
   committed_.take(body_);
   if (!any) return;
   const std::vector<Vector> kept = body_.force_density;
-  advance(0, false);
+  advance(0, t_ + dt_, false);
   for (int i = 0; i < body_.owned(); ++i) {
     outer_before_[i] += inner_[i] - body_.domain.volume(i) * body_.force_density[i];
   }
@@ -243,7 +263,7 @@ std::vector<Tensor> Equilibrium::contact_springs() {
 void Equilibrium::go_back() {
   committed_.restore(body_);
   stretch_sides(t_);
-  advance(0, true);
+  advance(0, t_, true);
   add_contact();  // for its energy
   forces_ = forces_before_;
   outer_ = outer_before_;

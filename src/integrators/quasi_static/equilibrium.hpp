@@ -18,7 +18,7 @@ namespace strut {
 // The imbalance of the forces of a trial, the same on all ranks.
 struct Imbalance {
   double norm = 0;       // N, root of the sum of squares of the forces in free directions
-  double scale = 0;      // N, the same for reactions, loads and contact: `norm` is compared with it
+  double scale = 0;      // N, the same for reactions, loads, expansion and contact: `norm` is compared with it
   double round_off = 0;  // N: `norm` of a balanced body without loads
   bool failed = false;   // a point inverted or its law found no stress; the numbers are then meaningless
 };
@@ -30,7 +30,7 @@ class Equilibrium {
 
   // Collective. For a body that begins strained: the forces that hold it as it is fade over the first load step, and
   // their work counts as that of loads.
-  void begin_strained();
+  void begin_strained(double t);
 
   // Collective. Begins a load step from t over dt (s), at the committed positions. Throws Error if a value of a
   // condition is not finite.
@@ -84,10 +84,12 @@ class Equilibrium {
 
  private:
   std::vector<Vector> step_way() const;  // displacement increment of the owned points in this load step, m
-  StepReport advance(double dt, bool with_diagnostics) {
-    return advance_by_any_step(body_, dt, with_diagnostics, fracture_ ? &*fracture_ : nullptr);
+  // `time`: at the end of the step.
+  StepReport advance(double dt, double time, bool with_diagnostics) {
+    return advance_by_any_step(body_, dt, time, with_diagnostics, fracture_ ? &*fracture_ : nullptr);
   }
   void check_values();
+  double force_of_expansion();
   void add_contact();
   Imbalance measure(bool failed);
   void begin_flow_of_cells();
@@ -100,7 +102,7 @@ class Equilibrium {
   ToolContact tools_;
   Committed committed_;
   std::optional<Constraints> constraints_;
-  double t_ = 0, dt_ = 0, round_off_ = 0, last_scale_ = 0, largest_scale_ = 0;
+  double t_ = 0, dt_ = 0, round_off_ = 0, last_scale_ = 0, largest_scale_ = 0, expansion_scale_ = 0;
   std::optional<Failure> failure_;
   Field forces_, residual_;                     // N: all; those in free directions
   Field inner_;                                 // N, of the body alone

@@ -134,7 +134,7 @@ void QuasiStatic::serialize_steps(Archive& archive) {
 }
 
 void QuasiStatic::begin_strained(bool goes_on) {
-  if (!goes_on) equilibrium_.begin_strained();
+  if (!goes_on) equilibrium_.begin_strained(time_);
   put_in_ += ledger().gained;
 }
 
@@ -187,7 +187,8 @@ Ledger QuasiStatic::ledger() {
   Ledger now{.time = time_, .dt = last_dt_};
   now.elastic = stored.elastic, now.dissipated = stored.dissipated, now.stabilization = stored.stabilization;
   now.heat = stored.heat;
-  now.external = external_;
+  now.expansion = stored.expansion;
+  now.external = external_ + now.expansion;
   now.tools = by_tools_;
   const double in_contact = body.domain.communicator.sum(contact().energy());
   now.contact = by_friction_ - in_contact;

@@ -36,6 +36,11 @@ PointCloud read_exodus(const std::filesystem::path& file, const Communicator& co
 // Lines "x y z block volume" (m, m³; block: an integer n, named "block_n"); '#' starts a comment. Errors name the line.
 PointCloud read_text(const std::filesystem::path& file, const Communicator& communicator);
 
+using Triangle = std::array<Vector, 3>;  // m
+// The triangles of a mesh of shells (TRI, QUAD, SHELL with 3 or 4 nodes), those of a quadrilateral being two. Throws
+// Error on all ranks: file missing, not Exodus, other elements, none.
+std::vector<Triangle> read_shells(const std::filesystem::path& file, const Communicator& communicator);
+
 struct OutputField {
   std::string name;    // "Displacement", "Cauchy_Stress", …
   int components = 1;  // 1; 3: suffix X Y Z; 6: XX YY ZZ XY YZ ZX; 9 (row by row): XX XY XZ YX YY YZ ZX ZY ZZ

@@ -118,8 +118,9 @@ struct Update {
     const Lanes carries = (trace > 0).select(Lanes::Constant(1), Lanes::Zero());
     const LaneTensor F = deformation_gradient(group, N, shape_inverse, carries);
     const Lanes share = shares(body(), group, law.pass.level);
-    Deformed now = law.deformed(g.numbers, F, share, carries);
+    Deformed now = law.deformed(group, g.numbers, F, share, carries);
     law.set_stress(g, share, now);
+    law.template count_expansion<1>(group, {&now});
     state.give_back(*block().state, group.k, group.count);
     const Lanes C = lanes_of([&](int l) { return block().own_springs_of(*g.numbers.points[l]); }), shared_C = share * C;
     const LaneTensor A = force_states(now, C, shape_inverse, share);

@@ -10,7 +10,36 @@
 
 namespace strut {
 
+using small::Lanes, small::lanes_of;
+
 namespace {
+
+Lanes expansions(const Body& body, const LaneGroup& group) {
+  if (body.expansion.empty()) return Lanes::Zero();
+  return lanes_of([&](int l) { return body.expansion[group.i[l]].now; });
+}
+
+// Moves the force state and the dilatation to those of the extensions e − ε |ξ|, and counts the work of the expansion:
+// ∂W/∂ε = −θ [(3K − 5μ) s + 5μ], s the part of m that intact bonds hold.
+template <class Weight>
+__attribute__((noinline)) void expand(Body& body, MaterialBlock& block, Weight weight, const LaneGroup& group) {
+  const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
+  const bonds::OfCluster family{*group.cluster};
+  const Site* sites = body.domain.sites.data();
+  const bonds::OfExpanded extension(family, expansions(body, group));
+  const bonds::Lanes moment = bonds::extensions(family, sites, weight, extension);
+  const bonds::Lanes whole = bonds::extensions(family, sites, weight, bonds::OfLengths<bonds::OfCluster>());
+  for (int l = 0; l < group.count; ++l) {
+    OrdinaryPoint& point = block.ordinary[group.k[l]];
+    PointExpansion& expansion = body.expansion[group.i[l]];
+    const double m = point.weighted_volume;
+    point.dilatation = 3 * moment[l] / m;
+    ScalarState state = scalar_state(moduli, point.dilatation, m);
+    state.a -= state.b * expansion.now;
+    body.force_states.scalars[group.i[l]] = state;
+    expansion.count(-point.dilatation * ((3 * moduli.bulk - 5 * moduli.shear) * whole[l] / m + 5 * moduli.shear));
+  }
+}
 
 template <class Weight>
 void advance_points(Body& body, MaterialBlock& block, Weight weight, const LaneGroups& groups, WorstFailure& failure) {
@@ -27,13 +56,14 @@ void advance_points(Body& body, MaterialBlock& block, Weight weight, const LaneG
       body.force_density[group.i[l]].setZero();  // bonds rotate: their sums cannot be precomputed
       if (!std::isfinite(point.dilatation)) failure.report(group.k[l], Failure::Kind::not_finite);
     }
+    if (!body.expansion.empty()) expand(body, block, weight, group);
   });
 }
 
 // The unrotated Cauchy stress J⁻¹ T U of a homogeneously deformed family, T = λ tr(U − I) I + 2μ (U − I). It is the
 // stress that the bonds carry: exact for isotropic stretch, and to first order in the strain otherwise.
-Symmetric stress_of(const materials::Moduli& moduli, const Tensor& U) {
-  const Tensor strain = U - Tensor::Identity();
+Symmetric stress_of(const materials::Moduli& moduli, const Tensor& U, double expansion) {
+  const Tensor strain = U - (1 + expansion) * Tensor::Identity();
   const double lambda = moduli.bulk - 2 * moduli.shear / 3;
   const Tensor T = lambda * strain.trace() * Tensor::Identity() + 2 * moduli.shear * strain;
   return symmetric_part(T * U / U.determinant());
@@ -50,7 +80,8 @@ void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const Lane
   for_each_point(0, groups.count(), [&, weight](int g) {
     const LaneGroup group = groups[g];
     const bonds::OfCluster family{*group.cluster};
-    const bonds::Lanes squares = bonds::squared_extensions(family, body.domain.sites.data(), weight);
+    const Lanes expansion = expansions(body, group);
+    const bonds::Lanes squares = bonds::squared_extensions(family, body.domain.sites.data(), weight, expansion);
     const auto N = bonds::gather<false>(family, body.domain.sites.data(), weight).tensor;
     for (int l = 0; l < group.count; ++l) {
       OrdinaryPoint& ordinary = block.ordinary[group.k[l]];
@@ -64,7 +95,7 @@ void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const Lane
       point.deformation_gradient = at(N, l) * to_tensor(shape_inverse);
       const Tensor R = polar_rotation(point.deformation_gradient);
       point.rotation = Rotation(R);
-      point.stress = stress_of(moduli, R.transpose() * point.deformation_gradient);
+      point.stress = stress_of(moduli, R.transpose() * point.deformation_gradient, expansion[l]);
     }
   });
 }

@@ -87,12 +87,13 @@ struct Update {
     for (int q = 0; q < 4; ++q) {
       LaneTensor F = cells.gradient_at(q);
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1 - carries;  // cells without stress stay undeformed
-      now[q] = law.deformed(at.numbers(q), F, share, carries);
+      now[q] = law.deformed(group, at.numbers(q), F, share, carries);
     }
     const std::array<Lanes, 4> J{now[0].J, now[1].J, now[2].J, now[3].J};
     share_traces(J, {&now[0].rates, &now[1].rates, &now[2].rates, &now[3].rates}, has_flowed);
     for (int q = 0; q < 4; ++q) law.set_stress(at.points(q), share, now[q]);
     share_traces(J, {&now[0].stress, &now[1].stress, &now[2].stress, &now[3].stress}, has_flowed);
+    law.template count_expansion<4>(group, {&now[0], &now[1], &now[2], &now[3]});
     Lanes stiffest = now[0].stiffness, softest = now[0].stiffness;
     for (const Deformed& there : now) {
       stiffest = stiffest.max(there.stiffness), softest = softest.min(there.stiffness);

@@ -35,7 +35,7 @@ struct StressPass {
   double dt;                 // s; of a step of the time-step level
   int level = 0;             // 0: a whole step
   bool of_any_size = false;  // the step may rotate a point far; its rotation is found to round-off
-  double time = 0;           // at the end of the step, s; for bonds that break
+  double time = 0;           // at the end of the step, s; for bonds that break and points that expand
 };
 
 }  // namespace strut

@@ -110,18 +110,31 @@ inline materials::SymmetricOf<small::RawLanes> raw(const LaneSymmetric& s) {
   return result;
 }
 
+template <class Numbers>
+LaneSymmetric stretch_of(const Numbers& numbers) {
+  return small::symmetric_part(small::transposed_product(numbers.rotations(), numbers.deformation_gradients()));
+}
+
 // The unrotated rate of deformation, d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹). It is exact up to the midpoint rule, because F
 // is linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
-template <class Numbers>
-LaneSymmetric strain_rate(const Numbers& old_numbers, const LaneSymmetric& stretch, const Lanes& dt) {
-  const LaneTensor R = old_numbers.rotations(), F = old_numbers.deformation_gradients();
-  const LaneSymmetric old = small::symmetric_part(small::transposed_product(R, F));
+inline LaneSymmetric strain_rate(const LaneSymmetric& old, const LaneSymmetric& stretch, const Lanes& dt) {
   LaneSymmetric difference, middle;
   for (int c = 0; c < 6; ++c) {
     difference.c[c] = (stretch[c] - old[c]) / dt;
     middle.c[c] = 0.5 * (stretch[c] + old[c]);
   }
   return small::symmetric_part(small::product(small::full(difference), small::full(small::inverse(middle))));
+}
+
+// The same of the elastic stretch U/(1 + ε) of points that expand (expansion.hpp).
+template <class Numbers>
+__attribute__((noinline)) LaneSymmetric elastic_rate(const Body& body, const LaneGroup& group, const Numbers& old,
+                                                     const LaneSymmetric& stretch, const Lanes& dt) {
+  LaneSymmetric start = stretch_of(old), end = stretch;
+  const Lanes before = lanes_of([&](int l) { return 1 + body.expansion[group.i[l]].before; });
+  const Lanes now = lanes_of([&](int l) { return 1 + body.expansion[group.i[l]].now; });
+  for (int c = 0; c < 6; ++c) start.c[c] /= before, end.c[c] /= now;
+  return strain_rate(start, end, dt);
 }
 
 // Each further update squares the remaining error.
@@ -165,11 +178,14 @@ struct LawUpdate {
   // points that carry stress, 0 for others, to which the law does not apply: it may have a stress at rest (plastic
   // strain, pressure).
   template <class Numbers>
-  Deformed deformed(const Numbers& old, const LaneTensor& F, const Lanes& share, const Lanes& carries) const {
+  Deformed deformed(const LaneGroup& group, const Numbers& old, const LaneTensor& F, const Lanes& share,
+                    const Lanes& carries) const {
     const Polar<Lanes> polar = polar_of(old.rotations(), F, pass.of_any_size);
     Deformed now{F, polar, small::inverse(polar.stretch), small::determinant(F) * carries, {}, {}, {}};
-    if (pass.dt > 0) {
-      now.rates = strain_rate(old, polar.stretch, pass.dt * share);
+    if (pass.dt > 0 && !body.expansion.empty()) {
+      now.rates = elastic_rate(body, group, old, polar.stretch, pass.dt * share);
+    } else if (pass.dt > 0) {
+      now.rates = strain_rate(stretch_of(old), polar.stretch, pass.dt * share);
     } else {
       for (int c = 0; c < 6; ++c) now.rates.c[c].setZero();
     }
@@ -191,6 +207,21 @@ struct LawUpdate {
     if constexpr (materials::has_changing_moduli<L>) now.stiffness = stiffness_of(g);
     if (block.viscous.empty()) return;
     for (int c = 0; c < 3; ++c) now.stress[c] -= viscous.pressure;
+  }
+
+  // Counts the work of expansion of a group; `now`: its integration points.
+  template <std::size_t n>
+  void count_expansion(const LaneGroup& group, const std::array<const Deformed*, n>& now) const {
+    if (body.expansion.empty()) return;
+    for (int l = 0; l < group.count; ++l) {
+      PointExpansion& point = body.expansion[group.i[l]];
+      double pull = 0;
+      for (const Deformed* at : now) {
+        const double trace = at->stress.c[0][l] + at->stress.c[1][l] + at->stress.c[2][l];
+        if (at->J[l] > 0 && at->stiffness[l] > 0) pull -= at->J[l] * trace / (1 + point.now) / n;
+      }
+      point.count(pull);
+    }
   }
 
  private:

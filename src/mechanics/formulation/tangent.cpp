@@ -9,6 +9,7 @@ void Committed::take(const Body& body) {
   places_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) places_[i] = body.domain.sites[i].current;
   points_ = body.points;
+  expansion_ = body.expansion;
   states_.clear(), viscous_.clear(), cells_.clear();
   for (const MaterialBlock& block : body.blocks) {
     states_.push_back(*block.state), viscous_.push_back(*block.viscous), cells_.push_back(*block.cells);
@@ -22,6 +23,7 @@ void Committed::restore(Body& body) const {
 
 void Committed::restore_materials(Body& body) const {
   body.points = points_;
+  body.expansion = expansion_;
   for (std::size_t b = 0; b < states_.size(); ++b) {
     body.blocks[b].state = states_[b], body.blocks[b].viscous = viscous_[b], body.blocks[b].cells = cells_[b];
   }
@@ -71,14 +73,17 @@ PointTangent point_tangent(const MaterialPoint& point, const materials::StretchT
   return tangent;
 }
 
+// The elastic stretch of a point that has expanded by ε.
+Symmetric elastic_stretch(const MaterialPoint& point, double expansion) {
+  return symmetric_part(point.rotation.tensor().transpose() * point.deformation_gradient) / (1 + expansion);
+}
+
 template <class L>
-materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, const MaterialPoint& now, double dt,
-                                     const typename L::State& state) {
-  const auto stretch = [](const MaterialPoint& p) {
-    return symmetric_part(p.rotation.tensor().transpose() * p.deformation_gradient);
-  };
-  const materials::PointStep step = materials::step_between(stretch(old), stretch(now), dt);
-  return materials::tangent_of(law, step, old.stress, state, stretch(old));
+materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, const MaterialPoint& now,
+                                     const PointExpansion& expansion, double dt, const typename L::State& state) {
+  const Symmetric start = elastic_stretch(old, expansion.before);
+  const materials::PointStep step = materials::step_between(start, elastic_stretch(now, expansion.now), dt);
+  return materials::tangent_of(law, step, old.stress, state, start) / (1 + expansion.now);
 }
 
 }  // namespace
@@ -91,9 +96,10 @@ std::vector<PointTangent> point_tangents(const Body& body, const Committed& star
     const MaterialBlock& block = body.blocks[b];
     if (block.is_ordinary()) continue;
     const auto of_block = [&]<class L>(const L& law) {
-      const auto at_place = [&](std::size_t place, const MaterialPoint& old, const MaterialPoint& now) {
+      const auto at_place = [&](int i, std::size_t place, const MaterialPoint& old, const MaterialPoint& now) {
         const auto state = state_in<L>(start.state(b), place);
-        return point_tangent(now, by_stretch(law, old, now, dt, state));
+        const PointExpansion expansion = body.expansion.empty() ? PointExpansion() : body.expansion[i];
+        return point_tangent(now, by_stretch(law, old, now, expansion, dt, state));
       };
       for_each_point(0, static_cast<int>(block.points.size()), [&](int k) {
         if (!(block.moduli(block.place(k, 0)).longitudinal() > 0)) return;
@@ -101,13 +107,13 @@ std::vector<PointTangent> point_tangents(const Body& body, const Committed& star
         materials::PointsOfCall<L> here;
         here.add(body.domain.sites[i].reference.data());
         if (!block.is_quadratic()) {
-          tangents[i] = at_place(k, start.point(i), body.points[i]);
+          tangents[i] = at_place(i, k, start.point(i), body.points[i]);
           return;
         }
         for (int q = 0; q < block.points_per_cell(); ++q) {
           const std::size_t place = block.place(k, q);
           PointTangent& tangent = tangents[body.owned() + block.first_integration_point + place];
-          tangent = at_place(place, start.cell(b, place), block.cells[place]);
+          tangent = at_place(i, place, start.cell(b, place), block.cells[place]);
           tangents[i].by_gradient += tangent.by_gradient / block.points_per_cell();
         }
       });

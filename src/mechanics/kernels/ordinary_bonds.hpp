@@ -49,6 +49,26 @@ class OfPlaces {
   T over_length(const Stretched<T>&, const T& shrinkage) const { return 1 - shrinkage; }  // e/|η|
 };
 
+// … less the expansion ε |ξ| of the point's own temperature …
+template <class Family>
+class OfExpanded {
+ public:
+  using T = ScalarOf<Family>;
+  OfExpanded(const Family& family, const T& expansion) : places_(family), expansion_(expansion) {}
+  T times_length(const Stretched<T>& bond) const { return places_.times_length(bond) - expansion_ * bond.xi2; }
+
+ private:
+  OfPlaces<Family> places_;
+  T expansion_;
+};
+
+// … or 1 for each |ξ| …
+template <class Family>
+struct OfLengths {
+  using T = ScalarOf<Family>;
+  T times_length(const Stretched<T>& bond) const { return bond.xi2; }
+};
+
 // … or its derivative η·(v_j − v_i)/|η| along a field v, which is stored as the current positions of other sites.
 template <class Family>
 class OfField {
@@ -78,14 +98,15 @@ inline ScalarOf<Family> extensions(const Family& family, const Site* sites, Weig
   return moment;
 }
 
-// Σ ω V (|η| − |ξ|)², from the difference of lengths: that of squares would lose the digits of a small strain.
+// Σ ω V (|η| − (1 + ε) |ξ|)², from the difference of lengths: that of squares would lose the digits of a small strain.
 template <class Family, class Weight>
-inline ScalarOf<Family> squared_extensions(const Family& family, const Site* sites, Weight weight) {
+inline ScalarOf<Family> squared_extensions(const Family& family, const Site* sites, Weight weight,
+                                           const ScalarOf<Family>& expansion) {
   using T = ScalarOf<Family>;
   using std::sqrt;
   T square = zero_vector<T>().c[0];
   over_stretched(family, sites, weight, [&](const Stretched<T>& bond) {
-    const T e = sqrt(bond.eta2) - sqrt(bond.xi2);
+    const T rest = sqrt(bond.xi2), e = sqrt(bond.eta2) - rest - expansion * rest;
     square += bond.weight * e * e;
   });
   return square;

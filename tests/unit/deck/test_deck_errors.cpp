@@ -214,12 +214,6 @@ const std::vector<Case> names = {
      "Materials > steel > Stabilization: unknown key for Material Model 'Elastic'; it belongs to 'Elastic "
      "Correspondence', 'Elastic Plastic Correspondence', 'Metal Foam Correspondence', 'Polymer Foam Correspondence', "
      "'Hyperelastic', 'User Library'"},
-    {"PeridigmsNeedleman", "Elastic Plastic Correspondence", "Viscoplastic Needleman Correspondence",
-     "Materials > copper > Material Model: 'Viscoplastic Needleman Correspondence': it is not there: Hardening and "
-     "Rate "
-     "'Power Law' of 'Elastic Plastic Correspondence' come nearest, without its softening (Reference Strain 1) and "
-     "with "
-     "the rate factor (1 + rate/rate_0)^M in place of (rate/rate_0)^M"},
 };
 INSTANTIATE_TEST_SUITE_P(Names, OneProblem, testing::ValuesIn(names), name_of);
 

@@ -246,22 +246,20 @@ TEST(DeckOfPeridigm, KeysWithoutEffectAreTold) {
 TEST(DeckOfPeridigm, WhatIsMissingIsNamed) {
   const DeckFolder folder;
   std::string text = changed(small_deck, R"("Elastic Plastic Correspondence")", R"("Elastic")");
-  text = changed(
-      text, R"(<Parameter name="Yield Stress" type="double" value="50e6"/>)",
-      key("Apply Shear Correction Factor", "bool", "true") + key("Thermal Expansion Coefficient", "double", "1e-5"));
+  text = changed(text, R"(<Parameter name="Yield Stress" type="double" value="50e6"/>)",
+                 key("Apply Shear Correction Factor", "bool", "true"));
   text = changed(text, horizon, horizon + key("Damage Model", "string", "crack"));
   text = changed(text, R"(<Parameter name="Final Time" type="double" value="2e-4"/>)",
                  key("Final Time", "double", "2e-4") + list("Implicit", key("Fixed dt", "double", "1.0")));
-  const std::string heat = list("heat", key("Type", "string", "Prescribed Temperature"));
+  const std::string heat = list("heat", key("Type", "string", "Thermal Flux"));
   text = changed(text, R"(<ParameterList name="Solver">)",
                  list("Damage Models", list("brittle", key("Damage Model", "string", "Interface Aware"))) +
                      list("Boundary Conditions", heat) + output("Output1", "1", {"Velocity"}) +
                      output("Output2", "1", {"Displacement"}) + R"(<ParameterList name="Solver">)");
   const std::string error = folder.error(text);
-  EXPECT_TRUE(error.starts_with("deck.xml: 5 problems\n")) << error;
+  EXPECT_TRUE(error.starts_with("deck.xml: 4 problems\n")) << error;
   for (const std::string named :
-       {"Materials > copper > Thermal Expansion Coefficient: '1e-5'; expected 0: there is no thermal expansion",
-        "Boundary Conditions > heat > Type: 'Prescribed Temperature': no heat flows here",
+       {"Boundary Conditions > heat > Type: 'Thermal Flux': no heat flows here",
         "Solver > Implicit: implicit dynamics (Newmark's method) is not there; there are 'Verlet', and 'QuasiStatic' "
         "for "
         "loads without inertia",
@@ -487,6 +485,30 @@ TEST(DeckOfPeridigm, SkewRectanglesAreTheirPartInThePlane) {
   EXPECT_EQ(rectangle.along, Vector::UnitX());
   EXPECT_EQ(rectangle.length, 0.25);  // in units of the given vector's part, 2
   EXPECT_EQ(rectangle.width, 0.5);
+}
+
+TEST(DeckOfPeridigm, NeedlemansLawIsAHardeningAndARate) {
+  const DeckFolder folder;
+  std::string text =
+      changed(small_deck, R"("Elastic Plastic Correspondence")", R"("Viscoplastic Needleman Correspondence")");
+  text =
+      changed(text, R"(<Parameter name="Yield Stress" type="double" value="50e6"/>)",
+              key("Yield Stress", "double", "460e6") + key("Strain Hardening Exponent", "double", "0.1") +
+                  key("Rate Hardening Exponent", "double", "0.01") + key("Reference Strain Rate", "double", "0.001") +
+                  key("Reference Strain 0", "double", "0.00218") + key("Reference Strain 1", "double", "0.436"));
+  const Deck deck = folder.read(text);
+  const materials::FlowStress flow = std::get<materials::J2>(deck.materials[0].law).flow;
+  const auto& hardening = std::get<materials::NeedlemanHardening>(flow.hardening);
+  EXPECT_EQ(hardening.reference_strain, 0.00218);
+  EXPECT_EQ(hardening.exponent, 0.1);
+  EXPECT_EQ(hardening.softening_strain, 0.436);
+  const auto& rate = std::get<materials::NeedlemanRate>(flow.rate);
+  EXPECT_EQ(rate.reference_rate, 0.001);
+  EXPECT_EQ(rate.exponent, 0.01);
+  EXPECT_TRUE(told(deck,
+                   "Materials > copper > Reference Strain Rate is the slowest rate that counts: below it the flow "
+                   "stress is that of this rate, in Peridigm it falls on; above it the law is the same, but "
+                   "Peridigm looks for the flow at other strains than it then takes"));
 }
 
 TEST(DeckOfPeridigm, SolversFollowEachOther) {

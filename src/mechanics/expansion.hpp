@@ -1,0 +1,50 @@
+// Thermal expansion of points whose temperature T is prescribed: their thermal strain is ε = α (T − T₀).
+//   correspondence  F = (1 + ε) F_e: the law sees the rate of the elastic stretch U/(1 + ε)
+//   ordinary        extensions less the thermal ones, e − ε |ξ|, each bond with ε of the point itself
+// What the body gains by the expansion is work from outside, dW = pull dε.
+#pragma once
+
+#include <vector>
+
+#include "base/math/function.hpp"
+
+namespace strut {
+
+struct Body;
+
+// The points of a condition, and their temperature.
+struct HeatedPoints {
+  std::vector<int> points;  // owned
+  Function temperature;     // of the reference position and time, K
+  double reference_time;    // s, at which it is T₀
+};
+
+struct PointExpansion {
+  double before = 0, now = 0;  // ε at the start and at the end of the point's last step
+  double pull = 0;             // −J tr σ/(1 + ε), J/m³ of the reference volume: the work of expansion, by ε
+  double work = 0;             // J/m³, since the start of the run
+
+  // Counts the work of the step, by the mean pull of its ends.
+  void count(double pull_now) {
+    work += 0.5 * (pull + pull_now) * (now - before);
+    pull = pull_now;
+  }
+
+  static constexpr double PointExpansion::*numbers[] = {&PointExpansion::now, &PointExpansion::pull,
+                                                        &PointExpansion::work};
+};
+
+// Adds heated points; where several overlap, the last ones count.
+void add_heated(Body& body, HeatedPoints heated);
+
+// Sets ε of the points that are due at this level, at the end of their own steps: `time` (s) is that of all, dt (s) the
+// step of the level.
+void set_expansion(Body& body, double time, double dt, int level = 0);
+
+// Collective: tells ghosts ε.
+void exchange_expansion(Body& body);
+
+// True if any point of the block expands.
+bool expands(const Body& body, std::size_t block);
+
+}  // namespace strut

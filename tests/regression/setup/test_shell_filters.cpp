@@ -1,0 +1,117 @@
+// Bond filters by a mesh of shells cut what rectangles at the same places cut.
+#include <gtest/gtest.h>
+
+#include "io/exodus/exodus_file.hpp"
+#include "regression/bodies.hpp"
+
+namespace strut::regression {
+namespace {
+
+using Corners = std::vector<std::vector<Vector>>;  // of triangles or quadrilaterals
+
+// A block for the triangles, and one for the quadrilaterals; each element has nodes of its own.
+void write_shells(const std::filesystem::path& file, const Corners& elements) {
+  std::array<std::vector<double>, 3> places;
+  std::vector<io::ExodusFile::Block> blocks;
+  std::vector<std::vector<std::int64_t>> nodes;
+  for (const std::size_t corners : {3, 4}) {
+    nodes.emplace_back();
+    for (const std::vector<Vector>& element : elements) {
+      if (element.size() != corners) continue;
+      for (const Vector& corner : element) {
+        for (int c = 0; c < 3; ++c) places[c].push_back(corner[c]);
+        nodes.back().push_back(static_cast<std::int64_t>(places[0].size()));
+      }
+    }
+    const auto count = static_cast<std::int64_t>(nodes.back().size() / corners);
+    blocks.push_back({.id = static_cast<std::int64_t>(corners),
+                      .name = "",
+                      .type = corners == 3 ? "TRI3" : "quad",
+                      .elements = count,
+                      .nodes_per_element = static_cast<std::int64_t>(corners),
+                      .attributes = {}});
+  }
+  io::ExodusFile out = io::ExodusFile::create(file);
+  out.put_sizes("shells",
+                {3, static_cast<std::int64_t>(places[0].size()), blocks[0].elements + blocks[1].elements, 2, 0});
+  out.put_blocks(blocks);
+  out.put_coordinates(places);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (blocks[b].elements > 0) out.put_connectivity(blocks[b], nodes[b]);
+  }
+}
+
+// An upright rectangle at x = 2 mm, and a flat one that meets it at z = 3 mm, each of some parts.
+Corners two_walls() {
+  const auto at = [](double x, double y, double z) { return Vector(1e-3 * x, 1e-3 * y, 1e-3 * z); };
+  Corners all;
+  for (const double y : {-1.0, 0.7, 1.9}) {
+    const double next = y < 0 ? 0.7 : y < 1 ? 1.9 : 5;
+    all.push_back({at(2, y, -1), at(2, next, -1), at(2, next, 3), at(2, y, 3)});
+  }
+  all.push_back({at(2, -1, 3), at(5, -1, 3), at(5, 5, 3)});
+  all.push_back({at(2, -1, 3), at(5, 5, 3), at(2, 5, 3)});
+  return all;
+}
+
+std::string rectangle(const std::string& name, const std::string& x, const std::string& y, const std::string& z,
+                      const std::string& normal, const std::string& bottom, const std::string& length,
+                      const std::string& side) {
+  const auto vector = [](const std::string& key_name, const std::string& axis) {
+    std::string keys;
+    for (const char* c : {"X", "Y", "Z"}) keys += key(key_name + "_" + c, axis == c ? "1" : "0");
+    return keys;
+  };
+  return section(name, key("Type", "Rectangular_Plane") + vector("Normal", normal) +
+                           vector("Bottom_Unit_Vector", bottom) + key("Lower_Left_Corner_X", x) +
+                           key("Lower_Left_Corner_Y", y) + key("Lower_Left_Corner_Z", z) +
+                           key("Bottom_Length", length) + key("Side_Length", side));
+}
+
+std::string with_filters(const Parts& parts, const std::string& filters) {
+  return changed(parts.text(), R"(value="bar.g"/>)", R"(value="bar.g"/>)" + section("Bond Filters", filters));
+}
+
+std::vector<std::vector<std::int64_t>> families_of(const RunFolder& folder, const std::string& text) {
+  const Scene scene = set_up(deck::read(folder.write("deck.xml", text), folder.world), folder.world);
+  const Domain& domain = scene.body.domain;
+  std::vector<std::vector<std::int64_t>> all;
+  for (int i = 0; i < domain.owned; ++i) {
+    all.push_back({domain.id(i)});
+    domain.families.for_each(i, [&](int j) { all.back().push_back(domain.id(j)); });
+    std::sort(all.back().begin() + 1, all.back().end());
+  }
+  return all;
+}
+
+TEST(ShellFilters, CutWhatRectanglesCut) {
+  const RunFolder folder;
+  run_on_root(folder.world, [&] { write_shells(folder / "shells.g", two_walls()); });
+  const Parts parts;
+  const std::string shells =
+      with_filters(parts, section("walls", key("Type", "Exodus Mesh") + key("File Name", "shells.g")));
+  // The other edge is along bottom × normal: y, and −y.
+  const std::string rectangles =
+      with_filters(parts, rectangle("upright", "2e-3", "-1e-3", "-1e-3", "X", "Z", "4e-3", "6e-3") +
+                              rectangle("flat", "2e-3", "5e-3", "3e-3", "Z", "X", "3e-3", "6e-3"));
+  const auto cut = families_of(folder, shells), expected = families_of(folder, rectangles);
+  EXPECT_EQ(cut, expected);
+  EXPECT_NE(cut, families_of(folder, parts.text()));
+}
+
+TEST(ShellFilters, OfAWrongFileAreRefused) {
+  const RunFolder folder;
+  const auto error = [&](const std::string& file) -> std::string {
+    try {
+      families_of(folder, with_filters({}, section("walls", key("Type", "Exodus Mesh") + key("File Name", file))));
+    } catch (const Error& one) {
+      return one.what();
+    }
+    return "";
+  };
+  EXPECT_NE(error("none.g").find("expected a mesh of shells"), std::string::npos);
+  EXPECT_NE(error("bar.g").find("expected triangles"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace strut::regression
