@@ -253,11 +253,14 @@ LibraryTrial tried(const UserLaw& given) {
   UserLaw::State rest;
   if (law.states < most) rest.user[law.states] = 12345.678;  // which it must leave alone
   const PointStress still = law.step(PointStep{Symmetric::Zero(), dt, 1, unit}, Symmetric::Zero(), rest);
-  if (!still.converged) {
-    const std::string why = complaint.load();
-    wrong(why == wrote_beyond ? "changes state variable " + std::to_string(law.states + 1) + " of " +
-                                    std::to_string(law.states) + " (State Variables)"
-                              : "in a step without strain " + why);
+  const auto wrong_beyond = [&](int k) {
+    wrong("changes state variable " + std::to_string(k + 1) + " of " + std::to_string(law.states) +
+          " (State Variables)");
+  };
+  if (!still.converged && complaint == wrote_beyond) wrong_beyond(law.states);
+  if (!still.converged) wrong("in a step without strain " + std::string(complaint));
+  for (int k = law.states + 1; k < most; ++k) {
+    if (rest.user[k] != 0) wrong_beyond(k);
   }
   const double large = still.stress.cwiseAbs().maxCoeff();
   if (large > 1e-9 * moduli.bulk) {
