@@ -26,25 +26,83 @@ Key key_of(const Face& face, const Mesh& mesh, const std::vector<Mirror>& sides)
   return key;
 }
 
-// Collective. How often each key is on all ranks, which send it to the one that counts it.
-std::vector<int> counts_of(const std::vector<Key>& keys, const Communicator& communicator) {
+// Keys on the ranks that count them.
+struct Sent {
+  std::vector<std::size_t> order;  // of the keys here, by the rank to which they go
+  std::vector<std::int64_t> to_ranks, from_ranks;
+  std::vector<Key> arrived;
+};
+
+Sent sent(const std::vector<Key>& keys, const Communicator& communicator) {
   const auto owner = [&](const Key& key) { return static_cast<std::size_t>(key[3] % communicator.size()); };
-  std::vector<std::size_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return owner(keys[k]); });
-  std::vector<std::int64_t> to_ranks(static_cast<std::size_t>(communicator.size()), 0);
+  Sent all{std::vector<std::size_t>(keys.size()), std::vector<std::int64_t>(communicator.size(), 0), {}, {}};
+  std::iota(all.order.begin(), all.order.end(), 0);
+  std::ranges::stable_sort(all.order, {}, [&](std::size_t k) { return owner(keys[k]); });
   std::vector<Key> leaving;
-  for (const std::size_t k : order) leaving.push_back(keys[k]), ++to_ranks[owner(keys[k])];
-  const std::vector<std::int64_t> from_ranks = counts_from_ranks(communicator, to_ranks);
-  const std::vector<Key> arrived = exchange<Key>(communicator, leaving, to_ranks, from_ranks);
+  for (const std::size_t k : all.order) leaving.push_back(keys[k]), ++all.to_ranks[owner(keys[k])];
+  all.from_ranks = counts_from_ranks(communicator, all.to_ranks);
+  all.arrived = exchange<Key>(communicator, leaving, all.to_ranks, all.from_ranks);
+  return all;
+}
+
+// Collective. For each of the keys `asked`, how often it is among the keys of all ranks.
+std::vector<int> counts_of(const std::vector<Key>& asked, const std::vector<Key>& keys,
+                           const Communicator& communicator) {
   std::map<Key, int> found;
-  for (const Key& key : arrived) ++found[key];
+  for (const Key& key : sent(keys, communicator).arrived) ++found[key];
+  const Sent questions = sent(asked, communicator);
   std::vector<int> answers;
-  for (const Key& key : arrived) answers.push_back(found[key]);
-  const std::vector<int> mine = exchange<int>(communicator, answers, from_ranks, to_ranks);
-  std::vector<int> counts(keys.size());
-  for (std::size_t n = 0; n < order.size(); ++n) counts[order[n]] = mine[n];
+  for (const Key& key : questions.arrived) answers.push_back(found.contains(key) ? found[key] : 0);
+  const std::vector<int> mine = exchange<int>(communicator, answers, questions.from_ranks, questions.to_ranks);
+  std::vector<int> counts(asked.size());
+  for (std::size_t n = 0; n < counts.size(); ++n) counts[questions.order[n]] = mine[n];
   return counts;
+}
+
+// A face on one of the sides.
+struct SideFace {
+  Face face;
+  Key key;
+  int side;  // index of the side; sides that meet are 2n and 2n + 1 (setup/periods.cpp)
+  std::size_t corners() const { return face.corners().size(); }
+};
+
+std::vector<Key> keys_of(const std::vector<SideFace>& faces) {
+  std::vector<Key> keys;
+  for (const SideFace& one : faces) keys.push_back(one.key);
+  return keys;
+}
+
+// Collective. Those of the faces that none of the same corners meets.
+std::vector<SideFace> without_twin(const std::vector<SideFace>& faces, const Communicator& communicator) {
+  const std::vector<Key> keys = keys_of(faces);
+  const std::vector<int> counts = counts_of(keys, keys, communicator);
+  std::vector<SideFace> alone;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    if (counts[k] == 1) alone.push_back(faces[k]);
+  }
+  return alone;
+}
+
+// Collective. Tetrahedra may halve a square by its other diagonal behind the other side: faces all of whose corners are
+// those of such triangles there go on.
+std::vector<SideFace> without_halves(const std::vector<SideFace>& faces, const Communicator& communicator) {
+  std::vector<Key> corners, asked;
+  for (const SideFace& one : faces) {
+    for (std::size_t c = 4 - one.corners(); c < 4; ++c) {
+      if (one.corners() == 3) corners.push_back({0, 0, one.side, one.key[c]});
+      asked.push_back({0, 0, one.side ^ 1, one.key[c]});
+    }
+  }
+  const std::vector<int> counts = counts_of(asked, corners, communicator);
+  std::vector<SideFace> left;
+  auto count = counts.begin();
+  for (const SideFace& one : faces) {
+    const auto end = count + static_cast<std::ptrdiff_t>(one.corners());
+    if (std::any_of(count, end, [](int found) { return found == 0; })) left.push_back(one);
+    count = end;
+  }
+  return left;
 }
 
 }  // namespace
@@ -53,24 +111,20 @@ std::vector<Face> without_continued(const std::vector<Face>& faces, const MeshSl
                                     const std::vector<Mirror>& planes, const Communicator& communicator) {
   std::vector<Mirror> mirrors, sides;
   for (const Mirror& plane : planes) (plane.period > 0 ? sides : mirrors).push_back(plane);
-  std::vector<Face> surface, on_sides;
-  std::vector<Key> keys;
+  std::vector<Face> surface;
+  std::vector<SideFace> on_sides;
   for (const Face& face : faces) {
     if (is_on(mirrors, face, slice.mesh)) continue;
-    if (!is_on(sides, face, slice.mesh)) {
+    const auto side = std::ranges::find_if(sides, [&](const Mirror& one) { return is_on({one}, face, slice.mesh); });
+    if (side == sides.end()) {
       surface.push_back(face);
-      continue;
+    } else {
+      on_sides.push_back({face, key_of(face, slice.mesh, sides), static_cast<int>(side - sides.begin())});
     }
-    on_sides.push_back(face);
-    keys.push_back(key_of(face, slice.mesh, sides));
   }
-  const bool any_triangle = std::ranges::any_of(on_sides, [](const Face& face) { return face.nodes[3] < 0; });
-  // Triangles may halve the faces of either side in their own way: of their meshes both sides must be alike.
-  if (communicator.max(any_triangle ? 1.0 : 0.0) > 0) return surface;
-  const std::vector<int> counts = counts_of(keys, communicator);
-  for (std::size_t k = 0; k < on_sides.size(); ++k) {
-    if (counts[k] == 1) surface.push_back(on_sides[k]);
-  }
+  if (sides.empty()) return surface;
+  for (const SideFace& one : without_halves(without_twin(on_sides, communicator), communicator))
+    surface.push_back(one.face);
   std::ranges::stable_sort(surface, {}, &Face::element);
   return surface;
 }

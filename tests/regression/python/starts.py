@@ -186,6 +186,8 @@ class Starts(InFolder):
                 steps = {"Final Time": 0.2 + 4e-5}
                 both = strut.run(but(deck, Solver=slow, **{"Solver 2": {**steps, "Keep Velocities": keep}}))
                 strut.run(but(deck, Solver=slow, Restart={"Filename": "slow.restart"}))
+                units = {unit for column, unit in both.history.units.items() if column.startswith("Reaction")}
+                self.assertEqual(units, {"N (mean in explicit steps)"})
                 run = strut.run(start(but(deck, Solver=steps), "slow.restart", 0.2, keep))
                 for field in FIELDS:
                     if field in both.fields:
