@@ -121,7 +121,7 @@ TEST(Quadratic, ForcesKeepMomentumAndAngularMomentum) {
   deform(body, [&](const Vector& X) -> Vector {
     return R * X + Vector(noise(engine), noise(engine), noise(engine)) + 20 * X[0] * X;
   });
-  advance_by_any_step(body, 1, false);
+  advance_by_any_step(body, 1, 0, false);
   double sums[7] = {};
   for (int i = 0; i < body.owned(); ++i) {
     const Vector f = body.force_density[i] * body.domain.volume(i), y = body.current(i), turning = y.cross(f);
