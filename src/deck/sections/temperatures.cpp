@@ -7,7 +7,7 @@ namespace strut::deck {
 namespace {
 
 // Stretch and energy that a bond may hold are those of a cold one.
-void check_bonds(const Deck& deck, Problems& problems) {
+void check_bonds(const HeatedSections& deck, Problems& problems) {
   for (const Block& block : deck.blocks) {
     if (!block.damage_model || *block.damage_model >= static_cast<int>(deck.damage_models.size()) ||
         block.material >= static_cast<int>(deck.materials.size()))
@@ -22,7 +22,7 @@ void check_bonds(const Deck& deck, Problems& problems) {
   }
 }
 
-void check_condition(const Deck& deck, const std::string& path, Problems& problems) {
+void check_condition(const HeatedSections& deck, const std::string& path, Problems& problems) {
   for (const Material& material : deck.materials) {
     const bool knows_its_own = std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
     if (!knows_its_own) continue;
@@ -30,7 +30,7 @@ void check_condition(const Deck& deck, const std::string& path, Problems& proble
                            "', whose temperature follows from its flow; expected materials without Softening, another "
                            "Flow Stress, Heating, an Equation of State or a Shear Modulus Slope");
   }
-  if (deck.start_from) {
+  if (deck.starts_elsewhere) {
     problems.add(path,
                  "'Prescribed Temperature' in a run that starts from another's checkpoint, whose temperatures "
                  "are not in it; expected no such condition");
@@ -41,7 +41,7 @@ void check_condition(const Deck& deck, const std::string& path, Problems& proble
 
 }  // namespace
 
-void check_temperatures(const Deck& deck, Problems& problems) {
+void check_temperatures(const HeatedSections& deck, Problems& problems) {
   bool any = false;
   for (const Condition& condition : deck.conditions) {
     if (!std::holds_alternative<PrescribedTemperature>(condition.kind)) continue;

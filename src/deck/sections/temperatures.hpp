@@ -1,10 +1,25 @@
 // Checks of thermal expansion that need several sections.
 #pragma once
 
-#include "deck/deck.hpp"
+#include <vector>
+
+#include "deck/forward.hpp"
+#include "deck/sections/blocks.hpp"
+#include "deck/sections/conditions.hpp"
+#include "deck/sections/damage_models.hpp"
+#include "deck/sections/materials.hpp"
 
 namespace strut::deck {
 
-void check_temperatures(const Deck& deck, Problems& problems);
+// The sections that thermal expansion concerns; `starts_elsewhere`: the deck has a section Start From.
+struct HeatedSections {
+  const std::vector<Material>& materials;
+  const std::vector<NamedDamageModel>& damage_models;
+  const std::vector<Block>& blocks;
+  const std::vector<Condition>& conditions;
+  bool starts_elsewhere;
+};
+
+void check_temperatures(const HeatedSections& deck, Problems& problems);
 
 }  // namespace strut::deck

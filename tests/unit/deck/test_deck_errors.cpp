@@ -160,7 +160,8 @@ const std::vector<Case> names = {
     {"KeyOfAnotherCase", R"(<Parameter name="Point" type="string" value="0 0 -1e-3"/>)",
      R"(<Parameter name="Point" type="string" value="0 0 0"/><Parameter name="Value" type="double" value="0"/>)",
      "Boundary Conditions > wall > Value: unknown key for Type 'Rigid Plane'; it belongs to 'Initial Velocity', "
-     "'Initial Displacement', 'Prescribed Displacement', 'Prescribed Velocity', 'Body Force'"},
+     "'Initial Displacement', 'Prescribed Displacement', 'Prescribed Velocity', 'Body Force', 'Prescribed "
+     "Temperature'"},
     {"KeyTwice", R"(<Parameter name="Type" type="string" value="Text File"/>)",
      R"(<Parameter name="Type" type="string" value="Text File"/><Parameter name="Type" type="string" value="Exodus"/>)",
      "Discretization > Type: given 2 times; expected once"},

@@ -9,7 +9,8 @@
 namespace strut {
 namespace {
 
-double value(int i) { return std::sin(12.9898 * i) * 43758.5453; }
+// Not inline: the compiler could contract its product with a sum (FMA), which has other bits.
+__attribute__((noinline)) double value(int i) { return std::sin(12.9898 * i) * 43758.5453; }
 
 // Tests ranges that are and are not long enough to be shared by threads, from any first index.
 template <class Test>
