@@ -17,7 +17,7 @@ struct HeatedSections {
   const std::vector<NamedDamageModel>& damage_models;
   const std::vector<Block>& blocks;
   const std::vector<Condition>& conditions;
-  bool starts_elsewhere;
+  bool starts_elsewhere, in_equilibria;
 };
 
 void check_temperatures(const HeatedSections& deck, Problems& problems);
