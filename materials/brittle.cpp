@@ -4,19 +4,10 @@
 #include <cmath>
 
 #include "materials/failure_criterion.hpp"
+#include "materials/softening.hpp"
 #include "materials/step_work.hpp"
 
 namespace strut::materials {
-
-namespace {
-
-// Multiplies the deviator and the tension by x.
-Symmetric scaled(const Symmetric& stress, double x) {
-  const double mean = trace(stress) / 3;
-  return x * deviator(stress) + spherical(mean > 0 ? x * mean : mean);
-}
-
-}  // namespace
 
 PointStress Brittle::soften(const PointStep& step, const Symmetric& stress, State& state) const {
   constexpr double most_damage = 0.999;
@@ -28,8 +19,7 @@ PointStress Brittle::soften(const PointStep& step, const Symmetric& stress, Stat
   const double left = 1 - state.dissipated / whole;
   State reached = state;
   if (x * most > strength * left) {
-    const Symmetric falls = trace(effective) > 0 ? effective : Symmetric(deviator(effective));
-    const double slope = strength * step.J * solid.elastic_energy(falls) / whole, room = most - slope;
+    const double slope = strength * step.J * solid.elastic_energy(falling(effective)) / whole, room = most - slope;
     const double to = room > 0 ? (most - strength * left - slope * state.damage) / room : 1;
     reached.damage = std::max(state.damage, std::min(to, most_damage));
   }
@@ -46,15 +36,10 @@ PointStress Brittle::soften(const PointStep& step, const Symmetric& stress, Stat
 
 void Brittle::soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
                           const StateOf<RawLanes>& state, StateOf<RawLanes>& next, StressOf<RawLanes>& result) const {
-  PointStep of_one{{}, step.dt[l], step.J[l], {}, step.viscous_work[l]};
-  Symmetric old;
-  for (int c = 0; c < 6; ++c) of_one.rate[c] = step.rate[c][l], of_one.stretch[c] = step.stretch[c][l];
-  for (int c = 0; c < 6; ++c) old[c] = stress[c][l];
-  State one = lane_of<State>(state, l);
-  const auto [reached, converged] = soften(of_one, old, one);
-  set_lane(next, l, one);
-  for (int c = 0; c < 6; ++c) result.stress[c][l] = reached[c];
-  result.converged[l] = converged ? -1 : 0;
+  const auto of_point = [this](const PointStep& one, const Symmetric& old, State& own) {
+    return soften(one, old, own);
+  };
+  soften_lane_by<State>(of_point, l, step, stress, state, next, result);
 }
 
 }  // namespace strut::materials

@@ -2,19 +2,10 @@
 
 #include <algorithm>
 
+#include "materials/softening.hpp"
 #include "materials/step_work.hpp"
 
 namespace strut::materials {
-
-namespace {
-
-// Multiplies the deviator and the tension by x.
-Symmetric scaled(const Symmetric& stress, double x) {
-  const double mean = trace(stress) / 3;
-  return x * deviator(stress) + spherical(mean > 0 ? x * mean : mean);
-}
-
-}  // namespace
 
 // x at the end of a step, from x' at its start: G_c/L (x² − x'²) = x · (flow of the effective stress) + W (x − x'), W
 // the elastic energy of the reduced stress. 0 below x = W L/(2 G_c), where x releases more than it dissipates.
@@ -35,8 +26,7 @@ PointStress DuctileOf<Metal>::soften(const PointStep& step, const Symmetric& str
   const auto [effective, converged] = metal.step(step, scaled(stress, 1 / x), reached.metal);
   if (!converged) return {stress, false};
   const double flowed = reached.metal.plastic_work - state.metal.plastic_work;
-  const Symmetric falls = trace(effective) > 0 ? effective : deviator(effective);
-  reached.damage = 1 - reduced(x, flowed, step.J * metal.elastic_energy(falls, reached.metal));
+  reached.damage = 1 - reduced(x, flowed, step.J * metal.elastic_energy(falling(effective), reached.metal));
   const bool holds = reached.damage < 1;
   if (!holds) reached.metal.plastic_strain_rate = 0;
   const Symmetric next = holds ? scaled(effective, 1 - reached.damage) : Symmetric(Symmetric::Zero());
@@ -56,15 +46,10 @@ template <class Metal>
 void DuctileOf<Metal>::soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
                                    const StateOf<RawLanes>& state, StateOf<RawLanes>& next,
                                    StressOf<RawLanes>& result) const {
-  PointStep of_one{{}, step.dt[l], step.J[l], {}, step.viscous_work[l]};
-  Symmetric old;
-  for (int c = 0; c < 6; ++c) of_one.rate[c] = step.rate[c][l], of_one.stretch[c] = step.stretch[c][l];
-  for (int c = 0; c < 6; ++c) old[c] = stress[c][l];
-  State one = lane_of<State>(state, l);
-  const auto [reached, converged] = soften(of_one, old, one);
-  set_lane(next, l, one);
-  for (int c = 0; c < 6; ++c) result.stress[c][l] = reached[c];
-  result.converged[l] = converged ? -1 : 0;
+  const auto of_point = [this](const PointStep& one, const Symmetric& old, State& own) {
+    return soften(one, old, own);
+  };
+  soften_lane_by<State>(of_point, l, step, stress, state, next, result);
 }
 
 template struct DuctileOf<J2>;

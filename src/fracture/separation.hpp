@@ -41,10 +41,11 @@ double separation_of_cells(const PulledLattice& lattice);
 // multiply by it.
 double separation_by_bond_energy(const PulledLattice& lattice);
 
-// What a crack that opens gradually needs (materials/brittle.hpp), from its fracture energy, J/m².
+// The constants of the law of a crack that opens gradually (materials/brittle.hpp) follow from its fracture energy,
+// J/m².
 struct GradualCrack {
-  double strength;          // σ_c, Pa
-  double width;             // ℓ, m: 1/(h Σ g²) if the layers beside an opening δ across an axis have the gradients g δ
+  double strength;  // σ_c, Pa
+  double width;     // ℓ, m: 1/(h Σ g²) if the layers beside an opening δ across an axis have the gradients g δ
   double critical_stretch;  // at which bonds break: root mean square of those across it at the opening 2 G_c/σ_c
 };
 GradualCrack gradual_crack(const PulledLattice& lattice, double fracture_energy);

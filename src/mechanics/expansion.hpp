@@ -1,7 +1,7 @@
 // Thermal expansion of points whose temperature T is prescribed: their thermal strain is ε = α (T − T₀).
 //   correspondence  F = (1 + ε) F_e: the law sees the rate of the elastic stretch U/(1 + ε)
 //   ordinary        extensions less the thermal ones, e − ε |ξ|, each bond with ε of the point itself
-// What the body gains by the expansion is work from outside, dW = pull dε.
+// The expansion does work on the body from outside, dW = pull dε, J/m³.
 #pragma once
 
 #include <vector>

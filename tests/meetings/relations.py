@@ -403,7 +403,7 @@ def started_from(case):
     return last_differ(case, other, files, 1e-4 if not scene.explicit else 0 if ranks == first == 1 else 1e-9)
 
 
-# What counts work from the start of a run on.
+# These columns count work, J, from the start of the run.
 OF_WORK = ("Tool_Work", "Contact_Work", "External_Work", "Balance_Error")
 
 

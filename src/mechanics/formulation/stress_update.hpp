@@ -126,7 +126,7 @@ inline LaneSymmetric strain_rate(const LaneSymmetric& old, const LaneSymmetric& 
   return small::symmetric_part(small::product(small::full(difference), small::full(small::inverse(middle))));
 }
 
-// The same of the elastic stretch U/(1 + ε) of points that expand (expansion.hpp).
+// The rate of the elastic stretch U/(1 + ε) of points that expand (expansion.hpp).
 template <class Numbers>
 __attribute__((noinline)) LaneSymmetric elastic_rate(const Body& body, const LaneGroup& group, const Numbers& old,
                                                      const LaneSymmetric& stretch, const Lanes& dt) {

@@ -17,7 +17,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "checkpoint
 import restarts  # noqa: E402  its scenes: no two points alike, contact, friction, substeps, viscosity, breaking bonds
 
 FIELDS = ("Displacement", "Velocity", "Cauchy_Stress", "Deformation_Gradient")
-# What counts work from the start of a run on.
+# These columns count work, J, from the start of the run.
 OF_WORK = ("Tool_Work", "Contact_Work", "External_Work", "Balance_Error")
 
 

@@ -76,7 +76,7 @@ TEST(TwoSolvers, WorkGoesOn) {
 
 const std::string held = along("low", "Prescribed Displacement", "foot", "xyz", "0");
 
-// What only the steps use is wrong from the start of the run on, not after its equilibria.
+// Errors in keys that only the explicit steps use are raised before the equilibria begin.
 TEST(TwoSolvers, ErrorsOfTheStepsComeBeforeTheEquilibria) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
       {along("blow", "Initial Velocity", "top", "z", "sqrt(0.5 - t)"), "Boundary Conditions > blow > Value"},

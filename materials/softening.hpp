@@ -1,0 +1,32 @@
+// What laws share whose stress falls with damage: their deviator and tension are reduced, pressure is kept.
+#pragma once
+
+#include "materials/law.hpp"
+
+namespace strut::materials {
+
+// Multiplies the deviator and the tension by x.
+inline Symmetric scaled(const Symmetric& stress, double x) {
+  const double mean = trace(stress) / 3;
+  return x * deviator(stress) + spherical(mean > 0 ? x * mean : mean);
+}
+
+// The part of a stress that falls.
+inline Symmetric falling(const Symmetric& stress) { return trace(stress) > 0 ? stress : Symmetric(deviator(stress)); }
+
+// Lane l of a step by `soften`, a step of one point.
+template <class State, class Lanes, class Soften>
+void soften_lane_by(const Soften& soften, int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
+                    const Lanes& state, Lanes& next, StressOf<RawLanes>& result) {
+  PointStep of_one{{}, step.dt[l], step.J[l], {}, step.viscous_work[l]};
+  Symmetric old;
+  for (int c = 0; c < 6; ++c) of_one.rate[c] = step.rate[c][l], of_one.stretch[c] = step.stretch[c][l];
+  for (int c = 0; c < 6; ++c) old[c] = stress[c][l];
+  State one = lane_of<State>(state, l);
+  const auto [reached, converged] = soften(of_one, old, one);
+  set_lane(next, l, one);
+  for (int c = 0; c < 6; ++c) result.stress[c][l] = reached[c];
+  result.converged[l] = converged ? -1 : 0;
+}
+
+}  // namespace strut::materials
