@@ -1,6 +1,7 @@
 // Inside io: names in the form of the Exodus library, and errors about a file.
 #pragma once
 
+#include <cctype>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -12,6 +13,12 @@ namespace strut::io {
 
 [[noreturn]] inline void fail_at(const std::filesystem::path& path, std::string_view doing, const std::string& cause) {
   throw Error(path.string() + ": cannot " + std::string(doing) + ": " + cause);
+}
+
+// Types of elements are compared in capitals: their spelling depends on the code that wrote them.
+inline std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
 }
 
 // The library exchanges names as arrays of pointers to buffers of equal length.

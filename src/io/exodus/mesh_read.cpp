@@ -1,7 +1,6 @@
 #include "io/exodus/mesh_read.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -9,15 +8,11 @@
 
 #include "base/errors.hpp"
 #include "io/exodus/elements.hpp"
+#include "io/exodus/exodus_words.hpp"
 
 namespace strut::io {
 
 namespace {
-
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
 
 // "HEX8", "hex", "HEXAHEDRON": the spelling of types depends on the code. "" for an unsupported type.
 std::string type_of(const ExodusFile::Block& block) {

@@ -6,20 +6,21 @@
 #include "base/parallel/communicator.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/exodus/exodus_file.hpp"
+#include "io/exodus/exodus_words.hpp"
 #include "io/on_root.hpp"
 
 namespace strut::io {
 
 namespace {
 
-bool is_of_shells(std::string type) {
-  for (char& c : type) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+bool is_of_shells(const ExodusFile::Block& block) {
+  const std::string type = upper(block.type);
   return type.starts_with("TRI") || type.starts_with("QUAD") || type.starts_with("SHELL");
 }
 
 int corners_of(const std::filesystem::path& path, const ExodusFile::Block& block) {
   const auto corners = static_cast<int>(block.nodes_per_element);
-  if (is_of_shells(block.type) && (corners == 3 || corners == 4)) return corners;
+  if (is_of_shells(block) && (corners == 3 || corners == 4)) return corners;
   throw Error(path.string() + ": block '" + block.name + "' has elements '" + block.type + "' with " +
               std::to_string(corners) + " nodes; expected triangles of 3 or quadrilaterals of 4");
 }

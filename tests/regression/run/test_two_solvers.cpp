@@ -109,7 +109,9 @@ TEST(TwoSolvers, ErrorsOfTheStepsComeBeforeTheEquilibria) {
     const std::string said = testing::internal::GetCapturedStdout();
     EXPECT_EQ(error.empty(), expected.empty()) << error;
     EXPECT_NE(error.find(expected), std::string::npos) << error;
-    if (!expected.empty()) EXPECT_EQ(said.find("iterations"), std::string::npos) << said;
+    if (!expected.empty()) {
+      EXPECT_EQ(said.find("iterations"), std::string::npos) << said;
+    }
   }
 }
 
