@@ -80,6 +80,10 @@ class Contact {
   // velocities from `before` to `after`.
   FrictionWork friction_work(double impulse_time, std::span<const Vector> before, std::span<const Vector> after) const;
 
+  // Adds this rank's part of the force on points by the couples of friction about images of points, N, to that of each
+  // of domain.mirrors.
+  void add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const;
+
   // Adds `amount` to the entry of each of this rank's points on which the last contact forces, of surfaces or points,
   // acted.
   void add_where_touched(double amount, std::span<double> of_points) const;

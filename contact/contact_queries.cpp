@@ -88,6 +88,10 @@ Vector Contact::force(const Domain& domain, int first, int second) const {
   return sum;
 }
 
+void Contact::add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const {
+  for (const ContactPair& pair : contact_pairs_) pair.couples.add_mirror_reactions(domain, of_mirrors);
+}
+
 FrictionWork Contact::friction_work(double impulse_time, std::span<const Vector> before,
                                     std::span<const Vector> after) const {
   FrictionWork work;

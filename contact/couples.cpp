@@ -1,5 +1,7 @@
 #include "contact/couples.hpp"
 
+#include "topology/mirror_reactions.hpp"
+
 namespace strut::contact {
 
 void Couples::take(const Domain& domain, const std::vector<int>& points) {
@@ -60,16 +62,41 @@ void Couples::add_forces(const Domain& domain, const std::vector<Neighborhood>& 
   forces_.assign(affected_.size(), Vector::Zero());
   for (std::size_t n = 0; n < affected_.size(); ++n) {
     const int i = affected_[n];
-    const Vector here = domain.current(i);
-    Vector density = Vector::Zero();
+    Vector sum = Vector::Zero();
     const auto take = [&](int j) {
-      if (!twists_[j].turn.isZero(0)) density += twists_[j].turn.cross(Vector(here - twists_[j].middle));
+      if (!twists_[j].turn.isZero(0)) sum += density(domain, i, j);
     };
     take(i);
     domain.families.for_each(i, take);
-    force_density[i] += density;
-    forces_[n] = density * domain.volume(i);
+    force_density[i] += sum;
+    forces_[n] = sum * domain.volume(i);
   }
+}
+
+// The couple of an image acts on points before the plane, and that of its original on images behind the plane, with
+// the same force along the normal: those of the images are a half.
+void Couples::add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const {
+  if (forces_.empty() || domain.mirrors.empty()) return;
+  const auto is_of = [&](int i, int body) { return domain.blocks[domain.cloud.blocks[i]].body == body; };
+  const auto on_body = [&](int body) {
+    Vector sum = Vector::Zero();
+    for_each_force([&](int i, const Vector& force) {
+      if (is_of(i, body)) sum += force;
+    });
+    return sum;
+  };
+  const auto of_images = [&](int body, const std::vector<char>& behind) {
+    Vector sum = Vector::Zero();
+    for (const int i : affected_) {
+      if (!is_of(i, body)) continue;
+      domain.families.for_each(i, [&](int j) {
+        if (behind[j]) sum += 2 * domain.volume(i) * density(domain, i, j);
+      });
+    }
+    return sum;
+  };
+  const std::vector<Vector> reactions = mirror_reactions(domain, {on_body, of_images});
+  for (std::size_t m = 0; m < reactions.size(); ++m) of_mirrors[m] += reactions[m];
 }
 
 }  // namespace strut::contact

@@ -30,6 +30,9 @@ class Couples {
   void add_forces(const Domain& domain, const std::vector<Neighborhood>& neighborhoods,
                   const std::vector<Vector>& couples, std::vector<Vector>& force_density);
 
+  // Adds this rank's part of what the images exert on bodies by the last forces, N, to that of each of domain.mirrors.
+  void add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const;
+
   // Calls visit(i, force in N) for the last forces on this rank's points.
   template <class Visit>
   void for_each_force(const Visit& visit) const {
@@ -50,6 +53,10 @@ class Couples {
       twist.turn *= by.turn.determinant();  // of a mirror image it is the other way round
     }
   };
+  // The force of the couple of point j on point i, per volume of i, N/m³.
+  Vector density(const Domain& domain, int i, int j) const {
+    return twists_[j].turn.cross(Vector(domain.current(i) - twists_[j].middle));
+  }
   Vector place(const Domain& domain, int i) const { return i < domain.owned ? domain.current(i) : motions_[i].place; }
 
   bool any_ = false;             // on any rank

@@ -179,7 +179,7 @@ def passive(scene, base, written):
     if not scene.explicit:
         raise NotHere("equilibria are driven")
     for one in scene.conditions.values():
-        driven = one["Type"] == "Body Force" or one["Type"] in MOTIONS and one["Value"].factor and one["Value"].text != "0"
+        driven = one["Type"] in ("Body Force", "Prescribed Temperature") or one["Type"] in MOTIONS and one["Value"].factor and one["Value"].text != "0"
         if driven or any(key.startswith(("Travel", "Force", "Stretch")) for key in one):
             raise NotHere("something drives them")
     rows = base.history

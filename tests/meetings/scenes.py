@@ -318,6 +318,8 @@ class Draft:
         if material.get("Formulation", "").startswith("Quadratic"):
             material.pop("Stabilization", None)
             material.pop("Stabilization Coefficient", None)
+        if self.knows_temperature(material):
+            material.pop("Thermal Expansion Coefficient", None)
         for pair in (("Compacted Young's Modulus", "Compacted Poisson's Ratio"),):
             if any(name in material for name in pair) and not all(name in material for name in pair):
                 for name in pair:
@@ -369,7 +371,9 @@ class Draft:
         models = [name for name in any_model.cases if self.may_fail(name, material)]
         if not models:
             return None
-        model = self.section(any_model, case=models[(self.seed + len(self.damage)) % len(models)])  # each in turn
+        each = models[(self.seed + len(self.damage)) % len(models)]  # in turn
+        seldom = "Bond Energy" in models and self.chance(0.5)  # which few scenes may have
+        model = self.section(any_model, case="Bond Energy" if seldom else each)
         if "D5" in model and not self.knows_temperature(material):
             del model["D5"]
         if "D5" in model:
@@ -438,6 +442,8 @@ class Draft:
     def condition(self, kind):
         case = self.schema.at(f"Boundary Conditions > {ANY}").cases[kind]
         made = {"Type": kind} | self.keys(case, 0.4)
+        if kind == "Prescribed Temperature":
+            return made | {"Node Set": self.somewhere(), "Value": self.over_time(self.field(300.0, "K"))}
         if "Coordinate" in case.keys:
             return self.along_axes(made, case)
         if "Friction Coefficient" in case.keys:
@@ -462,19 +468,21 @@ class Draft:
             made["Node Set"] = self.pick(("all", f"block_{self.pick(range(1, 1 + max(self.mesh.blocks)))}"))
             made["Value"] = self.field(self.speed if unit == "m/s" else 0.01 * self.h, unit)
             return made
-        later = f"(1 - cos(3*({{t}} - {self.begin!r})/{self.time!r}))"  # from 0, smoothly
         if kind in MOTIONS:
             body, axis, high = self.random.randrange(len(self.boxes)), self.random.randrange(3), self.chance(0.5)
             made["Node Set"] = self.face(body, axis, high)
             amplitude = self.speed * self.time / 3 if unit == "m" else self.speed
-            value = self.field(amplitude, unit)
-            made["Value"] = Expr(f"({value.text})*{later}", self.pick((0.0, 1.0, 1.0)) * value.factor, unit)
+            made["Value"] = self.over_time(self.field(amplitude, unit)).times(self.pick((0.0, 1.0, 1.0)))
             return made
         made["Node Set"] = self.somewhere()
         amplitude = {"N/m³": self.rho * self.speed / self.time}.get(unit, 1.0)
         value = self.field(amplitude, unit)
-        made["Value"] = value if self.chance(0.5) else Expr(f"({value.text})*{later}", value.factor, unit)
+        made["Value"] = value if self.chance(0.5) else self.over_time(value)
         return made
+
+    def over_time(self, value):
+        """From 0, smoothly."""
+        return Expr(f"({value.text})*(1 - cos(3*({{t}} - {self.begin!r})/{self.time!r}))", value.factor, value.unit)
 
     def tool(self, made, case):
         """Beside a face of the lowest or the uppermost body, at a small distance."""
@@ -515,6 +523,8 @@ class Draft:
         kinds = [kind for kind in kinds if self.explicit or kind not in inertial]
         if any(material["Material Model"] != "Elastic" for material in self.of_material.values()):
             kinds = [kind for kind in kinds if kind != "Initial Displacement"]  # forces that follow from positions alone
+        if not self.may_be_warmed():
+            kinds = [kind for kind in kinds if kind != "Prescribed Temperature"]
         made, held, thrown = {}, [], set()
         if not self.explicit:  # held first, or there is no equilibrium
             made |= self.motion(held, thrown)
@@ -531,6 +541,13 @@ class Draft:
             if self.free(one, held, thrown):
                 made[f"c{len(made) + 1}"] = one
         return made | self.motion(held, thrown) if self.explicit else made
+
+    def may_be_warmed(self):
+        """Whether something expands, and no law has another temperature or waits for a test of its expansion."""
+        expands = [m for m in self.of_material.values() if "Thermal Expansion Coefficient" in m]
+        metals = [m for m in expands if m["Material Model"] == "Elastic Plastic Correspondence"]
+        bonds = any(model["Damage Model"] == "Bond Energy" for model in self.damage.values())
+        return self.explicit and expands and not metals and not bonds and not any(map(self.knows_temperature, self.of_material.values()))
 
     def sides(self, conditions, contact):
         """Sides at both ends of the bodies along an axis, that nothing stands across; {} where they do not fit."""
@@ -582,6 +599,10 @@ class Draft:
                           for s, axis, kind in thrown for _, a, k in keys)
             thrown |= set() if overlap else keys
             return not overlap
+        if one["Type"] == "Prescribed Temperature":  # where several overlap, the last one of the deck counts
+            first = "heat" not in [taken for _, taken in held]
+            held.append((np.zeros(len(self.mesh.sites()), bool), "heat"))
+            return first
         if one["Type"] not in (*MOTIONS, "Symmetry Plane", "Non-Reflecting End"):
             return True
         scene = Scene({"Node Sets": self.sets}, self.mesh, self.h, 0, 0, self.boxes)

@@ -86,6 +86,7 @@ VALUES = {
     # Materials
     "Density": lambda c: Num(c.rho, "kg/m³"),
     **{name: modulus(name) for name in ("Bulk Modulus", "Shear Modulus", "Young's Modulus", "Poisson's Ratio")},
+    "Thermal Expansion Coefficient": uniform(1e-6, 3e-5, "1/K"),
     "Stabilization Coefficient": uniform(0.005, 0.4),
     "Linear Viscosity": uniform(0.02, 0.1),
     "Quadratic Viscosity": uniform(0.5, 1.5),
@@ -95,6 +96,8 @@ VALUES = {
     "Hardening Modulus": of("E", 0.0, 0.1, "Pa"),
     "Reference Strain": uniform(1e-3, 1e-2),
     "Power Law > Exponent": uniform(0.05, 0.4),
+    "Needleman > Exponent": uniform(0.05, 0.2),
+    "Softening Strain": uniform(0.05, 0.5),
     "Modulus": of("flow", 0.2, 3, "Pa"),
     "Exponent": uniform(0.3, 1),
     "Saturation Stress": of("flow", 0.2, 2, "Pa"),

@@ -125,6 +125,7 @@ void CentralDifference::sum_all_forces(bool with_diagnostics) {
   sum_forces(body_, with_diagnostics, breaking());
   mirror_forces_ = mirror_forces(body_);
   contact_.add_forces(kinematics(), dt(), body_.force_density);
+  contact_.add_mirror_reactions(body_.domain, mirror_forces_);
 }
 
 // Between time() and the next time: applies the impulses of the points of higher time-step levels. Times of level m

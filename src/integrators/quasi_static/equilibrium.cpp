@@ -135,6 +135,7 @@ Imbalance Equilibrium::evaluate(bool with_diagnostics) {
   add_forces(conditions_, t_ + dt_, body_);
   for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volume(i) * (body_.force_density[i] - residual_[i]);
   add_contact();
+  contact_.add_mirror_reactions(body_.domain, mirror_forces_);
   forces_.resize(body_.owned());
   for (int i = 0; i < body_.owned(); ++i) forces_[i] = body_.domain.volume(i) * body_.force_density[i];
   return measure(report.failure.has_value());
@@ -160,6 +161,7 @@ void Equilibrium::begin_strained(double t) {
   advance(0, t, true);
   mirror_forces_before_ = mirror_forces(body_);
   add_contact();
+  contact_.add_mirror_reactions(body_.domain, mirror_forces_before_);
   for (int i = 0; i < body_.owned(); ++i) outer_before_[i] = -body_.domain.volume(i) * body_.force_density[i];
   committed_.restore_materials(body_);
 }

@@ -147,6 +147,35 @@ TEST(Reaction, IsAMeanSinceTheRowBefore) {
 
 // Points of the crushed foot are subcycled, and the step shrinks with the deformation by some percent at a time. The
 // sum is that of 2000 steps of an impulse of 0.15 N s, some of which cancel.
+// Friction acts between points, with couples on their neighborhoods, which reach the images behind the planes.
+TEST(Reaction, OfSymmetryPlanesHasTheCouplesOfFriction) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 2, 1e-3) + cubes(2, {0.4e-3, 0.3e-3, 2.05e-3}, 3, 3, 2, 1e-3));
+  Parts parts = thrown_block(contact_of({{"block_1", "block_2"}}, "1e-3", "1e12", "0.3"));
+  parts.node_sets = key("foot", "z &lt; 1e-3") + key("front", "(y &lt; 1e-3)*(z &lt; 2e-3)") +
+                    key("back", "(y &gt; 3e-3)*(z &lt; 2e-3)");
+  parts.conditions += along("slide", "Initial Velocity", "block_2", "xy", "60");
+  parts.conditions += plane("z", "Symmetry Plane", "foot", "0 0 0", "0 0 1") +
+                      plane("y", "Symmetry Plane", "front", "0 0 0", "0 1 0") +
+                      plane("-y", "Symmetry Plane", "back", "0 4e-3 0", "0 -1 0");
+  parts.times = key("Final Time", "3e-6");
+  parts.history =
+      key("Filename", (folder / "history.csv").string()) +
+      section("Variables", key("Reaction_Z(z)", "true") + key("Reaction_Y(y)", "true") + key("Reaction_Y(-y)", "true"));
+  testing::internal::CaptureStdout();
+  run(folder.write("deck.xml", parts.text()), folder.world);
+  testing::internal::GetCapturedStdout();
+  const Table table = read_history(folder / "history.csv");
+  const std::vector<double>& time = table.at("Time");
+  const auto given = [&](const std::string& name) { return impulse(table.at(name), time, time.size() - 1); };
+  const auto gained = [&](const std::string& name) { return table.at(name).back() - table.at(name).front(); };
+  const double round_off = 1e-12 * std::abs(table.at("Momentum_Z").front());  // of some hundred steps
+  EXPECT_GT(gained("Momentum_Z"), 1e3 * round_off);
+  EXPECT_GT(std::abs(given("Reaction_Y(y)")), 1e3 * round_off);
+  EXPECT_NEAR(given("Reaction_Z(z)"), gained("Momentum_Z"), round_off);
+  EXPECT_NEAR(given("Reaction_Y(y)") + given("Reaction_Y(-y)"), gained("Momentum_Y"), round_off);
+}
+
 class StoppedBar : public testing::TestWithParam<std::string> {};
 
 TEST_P(StoppedBar, HasTheImpulsesOfSubstepsInItsReaction) {

@@ -1,0 +1,69 @@
+#include "topology/mirror_reactions.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+
+namespace strut {
+
+namespace {
+
+bool has_parallel(const std::vector<Mirror>& mirrors, const Mirror& mirror) {
+  return std::ranges::any_of(mirrors, [&](const Mirror& other) {
+    return &other != &mirror && other.body == mirror.body && other.normal.cross(mirror.normal).norm() < 1e-9;
+  });
+}
+
+// Marks the images behind a plane. For a point on the plane, a position beside it decides where its image belongs.
+std::vector<char> images_behind(const Domain& domain, const Mirror& mirror) {
+  std::vector<char> behind(domain.sites.size(), 0);
+  for (const ImagePoint& image : domain.halo.images()) {
+    const Vector original = image.by.turn.transpose() * (domain.reference(image.ghost) - image.by.shift);
+    const Vector inside = original + 1e-3 * domain.horizon(image.ghost) * mirror.normal;
+    behind[image.ghost] = mirror.distance(image.by(inside)) < 0;
+  }
+  return behind;
+}
+
+// The force of the images behind one of two parallel planes, along its normal, N.
+Vector across(const Domain& domain, const Mirror& mirror, const MirroredForces& sums) {
+  return mirror.normal.dot(sums.of_images(mirror.body, images_behind(domain, mirror))) * mirror.normal;
+}
+
+// Of the planes of a body, those that have a parallel one get the force of their images, the others what is left of
+// the force on the body.
+void add(const Domain& domain, int body, const MirroredForces& sums, std::vector<Vector>& forces) {
+  const std::vector<Mirror>& mirrors = domain.mirrors;
+  Vector rest = sums.on_body(body);
+  std::vector<std::size_t> others;
+  for (std::size_t m = 0; m < mirrors.size(); ++m) {
+    if (mirrors[m].body != body) continue;
+    if (has_parallel(mirrors, mirrors[m])) {
+      forces[m] = across(domain, mirrors[m], sums);
+      rest -= forces[m];
+    } else {
+      others.push_back(m);
+    }
+  }
+  if (others.empty()) return;
+  Eigen::Matrix3Xd normals(3, others.size());
+  for (std::size_t n = 0; n < others.size(); ++n) {
+    normals.col(static_cast<Eigen::Index>(n)) = mirrors[others[n]].normal;
+  }
+  const Eigen::VectorXd along = normals.completeOrthogonalDecomposition().solve(rest);
+  for (std::size_t n = 0; n < others.size(); ++n) {
+    forces[others[n]] = along[static_cast<Eigen::Index>(n)] * mirrors[others[n]].normal;
+  }
+}
+
+}  // namespace
+
+std::vector<Vector> mirror_reactions(const Domain& domain, const MirroredForces& sums) {
+  const std::vector<Mirror>& mirrors = domain.mirrors;
+  std::vector<Vector> forces(mirrors.size(), Vector::Zero());
+  for (std::size_t m = 0; m < mirrors.size(); ++m) {
+    if (m == 0 || mirrors[m - 1].body != mirrors[m].body) add(domain, mirrors[m].body, sums, forces);  // by bodies
+  }
+  return forces;
+}
+
+}  // namespace strut

@@ -1,0 +1,23 @@
+// The forces of symmetry planes on the bodies that they cut: what the images behind a plane exert on the points before
+// it. Forces within a body and its images cancel.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "topology/domain.hpp"
+
+namespace strut {
+
+// Sums over forces of one kind on this rank's points, N.
+struct MirroredForces {
+  std::function<Vector(int body)> on_body;  // of all forces
+  // Of the forces that images exert on a body; `behind` marks these images among the sites. It is asked for planes that
+  // have a parallel one only.
+  std::function<Vector(int body, const std::vector<char>& behind)> of_images;
+};
+
+// The force of each of domain.mirrors along its normal, N: this rank's part.
+std::vector<Vector> mirror_reactions(const Domain& domain, const MirroredForces& sums);
+
+}  // namespace strut
