@@ -18,6 +18,7 @@ constexpr Check checks[] = {
     improbable_temperatures,
     improbable_scales,
     large_elastic_strains,
+    sudden_stretches,
     overlaps,
     flat_families,
     contact_at_mirrors,

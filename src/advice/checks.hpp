@@ -56,6 +56,10 @@ std::string improbable_scales(const Situation& situation);
 // decreases while it vibrates.
 std::string large_elastic_strains(const Situation& situation);
 
+// A warning for each pair of periodic sides in an explicit run whose Stretch begins suddenly while the points have no
+// such velocity.
+std::string sudden_stretches(const Situation& situation);
+
 // ---- overlaps.cpp
 
 // Warnings for points around which a body has more material than fits, and for blocks of different bodies

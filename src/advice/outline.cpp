@@ -280,4 +280,34 @@ std::string large_elastic_strains(const Situation& situation) {
   return text.str();
 }
 
+std::string sudden_stretches(const Situation& situation) {
+  // Strain of the first waves over the largest one of the run, from which it is told.
+  constexpr double hardly_seen = 0.01;
+  const Scene& scene = situation.scene;
+  if (scene.quasi_static || situation.deck.start_from) return "";
+  const double start = situation.start, duration = situation.duration;
+  double fastest = 0;
+  for (const MaterialBlock& block : scene.body.blocks) fastest = std::max(fastest, wave_speed(block.material));
+  Eigen::AlignedBox3d velocities;
+  for (const Trajectory& one : situation.trajectories) velocities.extend(one.velocities);
+  std::ostringstream text;
+  text.precision(4);
+  for (const Period& period : scene.body.domain.periods) {
+    const int axis = period.axis;
+    const auto change = [&](double part) {
+      return stretch_at({period}, start + part * duration)[axis] - stretch_at({period}, start)[axis];
+    };
+    double largest = 0;
+    for (int k = 1; k <= 100; ++k) largest = std::max(largest, std::abs(change(0.01 * k)));
+    const double rate = change(first_moment) / (first_moment * duration), speed = std::abs(rate) * period.length;
+    if (speed <= 2 * fastest * hardly_seen * largest || velocities.sizes()[axis] > 0.5 * speed) continue;
+    text << "WARNING: Boundary Conditions > " << situation.deck.conditions[period.number].name
+         << " > Stretch: the period changes by " << rate << " 1/s from the start, and points at rest follow by waves "
+         << "from the sides; expected, for a homogeneous strain, an Initial Velocity of " << rate << "*"
+         << "xyz"[axis] << " m/s along "
+         << "xyz"[axis] << ", or a Stretch that begins slowly\n";
+  }
+  return text.str();
+}
+
 }  // namespace strut

@@ -455,6 +455,22 @@ TEST(PeriodicSides, TellOfToolsAcrossThem) {
   EXPECT_TRUE(told("2e-3 0 -1.6e-3", "0 1 0", "200*t"));  // by 1 mm until the end
 }
 
+// Sides that move at 4 m/s from the start give a strain of 4/(2 · 4586) at once, 9 % of that in the end.
+TEST(PeriodicSides, TellOfASuddenStretch) {
+  const RunFolder folder;
+  const auto told = [&](const std::string& stretch, const std::string& velocity) {
+    Parts parts;
+    parts.conditions = sides("x", "0", "4e-3", stretch) + along("v", "Initial Velocity", "all", "x", velocity);
+    const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+    return told_at_the_start(deck, folder.world).warnings.find("> Stretch: the period changes by") != std::string::npos;
+  };
+  EXPECT_TRUE(told("1 + 1e3*t", "0"));
+  EXPECT_TRUE(told("1 + 1e3*t", "3"));
+  EXPECT_FALSE(told("1 + 1e3*t", "1e3*x"));
+  EXPECT_FALSE(told("1 + 2e8*t^2", "0"));
+  EXPECT_FALSE(told("1", "0"));
+}
+
 TEST(PeriodicSides, ThatDoNotFitAreRefused) {
   Parts parts;
   const auto with = [&](const std::string& conditions) {
