@@ -69,9 +69,13 @@ void make(const std::string& source, const std::string& output) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const bool asks = argc == 2 && (std::string(argv[1]) == "--help" || std::string(argv[1]) == "-h");
   if (argc != 3) {
-    std::fputs("usage: strut-mesh RECIPE OUT.g\n       strut-mesh --arrays OUT.g < STREAM\n", stderr);
-    return EXIT_FAILURE;
+    std::fputs(
+        "usage: strut-mesh RECIPE OUT.g            the mesh of a recipe (tools/README.md has its keys)\n"
+        "       strut-mesh --arrays OUT.g < STREAM  of the arrays that tools/voxels sends\n",
+        asks ? stdout : stderr);
+    return asks ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit fails, and is reported like a full disk
   try {

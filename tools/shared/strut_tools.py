@@ -22,12 +22,15 @@ def fail(text):
 
 
 def install_missing(packages):
-    """{module: Debian's package}: installs missing ones, and restarts the script with Debian's Python."""
+    """{module: Debian's package}: restarts the script with Debian's Python if need be, and installs what it lacks."""
     import importlib.util
 
     missing = [package for module, package in packages.items() if importlib.util.find_spec(module) is None]
     if not missing:
         return
+    debians = "/usr/bin/python3"  # which Debian's packages are for
+    if os.path.exists(debians) and os.path.realpath(sys.executable) != os.path.realpath(debians):
+        os.execv(debians, [debians, *sys.argv])
     if os.environ.get("STRUT_TOOLS_INSTALLED"):
         fail(f"these packages are installed but cannot be imported: {' '.join(missing)}")
     print("installing", *missing, flush=True)
