@@ -87,22 +87,11 @@ class QuadraticCells {
     offset[3].setZero();
     return numbers;
   }
-  // The force of the points' own states: the states times the sums over their families, which are constants of the
-  // reference state.
+
   small::Vector3<Lanes> own_force(const std::array<Lanes, QuadraticState::size>& states) const {
-    const auto sum = [this](int n) { return number(69 + n); };
-    const Lanes *first = &states[0], *second_state = first + 9, *correction = second_state + 18,
-                *offset = correction + 9;
-    small::Vector3<Lanes> force;
-    for (int r = 0; r < 3; ++r) {
-      Lanes f = -offset[r] * sum(0);
-      for (int c = 0; c < 3; ++c) f += first[3 * r + c] * sum(1 + c);
-      for (int k = 0; k < 6; ++k) f += second_state[6 * r + k] * sum(4 + k);
-      for (int c = 0; c < 3; ++c) f += correction[3 * r + c] * sum(10 + c);
-      force.c[r] = f;
-    }
-    return force;
+    return bonds::quadratic_own_force(states.data(), [this](int n) { return number(69 + n); });
   }
+
   // Writes the states to state_of(lane).
   template <class StateOf>
   void store(const LaneGroup& group, const Lanes& share, const StateOf& state_of) const {

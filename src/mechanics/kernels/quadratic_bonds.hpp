@@ -99,17 +99,24 @@ inline Vector3<ScalarOf<Family>> quadratic_far_force(const Family& family, const
   return sum;
 }
 
-// The force of the point's own state: the state times the sums over its family, which are constant.
-inline Vector quadratic_own_force(const QuadraticState& state, const QuadraticFit& fit) {
-  Vector sum;
+// The force of a point's own state: its numbers (QuadraticState) times the sums over its family, which are constant.
+template <class T, class Sum>
+inline Vector3<T> quadratic_own_force(const T* numbers, const Sum& sum) {
+  const T *first = numbers, *second = first + 9, *correction = second + 18, *offset = correction + 9;
+  Vector3<T> force;
   for (int r = 0; r < 3; ++r) {
-    double f = -state.offset[r] * fit.sums[0];
-    for (int c = 0; c < 3; ++c) f += state.first[3 * r + c] * fit.sums[1 + c];
-    for (int k = 0; k < 6; ++k) f += state.second[6 * r + k] * fit.sums[4 + k];
-    for (int c = 0; c < 3; ++c) f += state.correction[3 * r + c] * fit.sums[10 + c];
-    sum[r] = f;
+    T f = -offset[r] * sum(0);
+    for (int c = 0; c < 3; ++c) f += first[3 * r + c] * sum(1 + c);
+    for (int k = 0; k < 6; ++k) f += second[6 * r + k] * sum(4 + k);
+    for (int c = 0; c < 3; ++c) f += correction[3 * r + c] * sum(10 + c);
+    force.c[r] = f;
   }
-  return sum;
+  return force;
+}
+
+inline Vector quadratic_own_force(const QuadraticState& state, const QuadraticFit& fit) {
+  const Vector3<double> force = quadratic_own_force(state.first, [&](int n) { return fit.sums[n]; });
+  return {force.c[0], force.c[1], force.c[2]};
 }
 
 }  // namespace strut::bonds
