@@ -22,11 +22,14 @@ void take_turn(ChangesVelocities auto& condition, VelocityUpdate& update) {
 }  // namespace
 
 void Conditions::add(Condition condition) {
-  for (Function& value : std::visit([](const auto& one) { return one.values_at_points(); }, condition)) {
-    if (!value.is_constant()) expressions_.push_back(std::move(value));
-  }
+  for (const Function& value : std::visit([](const auto& one) { return one.values_at_points(); }, condition))
+    watch(value);
   const auto later = [](const Condition& one, const Condition& other) { return stage_of(one) < stage_of(other); };
   in_order_.insert(std::upper_bound(in_order_.begin(), in_order_.end(), condition, later), std::move(condition));
+}
+
+void Conditions::watch(const Function& value) {
+  if (!value.is_constant()) expressions_.push_back(value);
 }
 
 std::string Conditions::first_not_finite() const {

@@ -17,6 +17,8 @@ class Conditions {
  public:
   // Adds a condition; it acts after all of earlier stages, and after those of its own stage added so far.
   void add(Condition condition);
+  // Checks a value that others evaluate, too (first_not_finite).
+  void watch(const Function& value);
 
   // Visits the conditions in the order in which they act.
   template <class Visit>

@@ -4,8 +4,8 @@
 
 namespace strut {
 
-void PrescribedTemperature::set_initial_state(const std::vector<int>& points, double t, Body& body) const {
-  add_heated(body, {points, value, t});
+void PrescribedTemperature::set_initial_state(const std::vector<int>& points, double, Body& body) const {
+  add_heated(body, {points, value});
 }
 
 }  // namespace strut

@@ -14,8 +14,7 @@ struct PrescribedTemperature {
   static constexpr InEquilibria in_equilibria = InEquilibria::hold;
 
   std::vector<Function> values_at_points() const { return {value}; }
-  // `t`: s, at which the points have not expanded.
-  void set_initial_state(const std::vector<int>& points, double t, Body& body) const;
+  void set_initial_state(const std::vector<int>& points, double, Body& body) const;
   std::vector<HeldDirection> held_directions(const Body&, double, double) const { return {}; }
 };
 

@@ -41,7 +41,7 @@ void Fracture::set_limits(const Body& body, double time) {
   }
 }
 
-bool Fracture::limits_change(const Body& body) const { return by_time_ || !body.heated.empty(); }
+bool Fracture::limits_change(const Body& body) const { return by_time_ || !body.expansion.empty(); }
 
 // Points that failed in the last step: all of their bonds break, and the clusters of both ends are checked.
 void Fracture::take_failed(const Body& body) {

@@ -90,7 +90,8 @@ struct PointFields {
         .meaning = "work of expansion, by its strain",
         .kept = true,
         .width = 1},
-       {.name = "expansion_work", .unit = "J/m³", .meaning = "work of expansion so far", .kept = true, .width = 1}},
+       {.name = "expansion_work", .unit = "J/m³", .meaning = "work of expansion so far", .kept = true, .width = 1},
+       {.name = "reference_temperature", .unit = "K", .meaning = "T₀ of the expansion", .kept = true, .width = 1}},
       When::if_used);
   // Levels of owned points and ghosts, empty without subcycling. Multi-time-stepping chooses and saves them.
   PointField<std::uint8_t> time_levels =

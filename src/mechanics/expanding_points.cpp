@@ -1,31 +1,57 @@
-#include "mechanics/expansion.hpp"
-
 #include <algorithm>
+#include <cmath>
+#include <ranges>
 
 #include "mechanics/body.hpp"
+#include "mechanics/expansion.hpp"
 
 namespace strut {
+
+namespace {
+
+double temperature(const HeatedPoints& heated, const Body& body, int i, double t) {
+  const Vector X = body.domain.reference(i);
+  return heated.temperature(X[0], X[1], X[2], t);
+}
+
+}  // namespace
 
 void add_heated(Body& body, HeatedPoints heated) {
   if (body.expansion.empty()) body.expansion.use(body.owned());
   body.heated.push_back(std::move(heated));
 }
 
+void set_reference_temperatures(Body& body, double t) {
+  for (const HeatedPoints& heated : std::views::reverse(body.heated)) {
+    for (const int i : heated.points) {
+      double& reference = body.expansion[i].reference;
+      if (std::isnan(reference)) reference = temperature(heated, body, i, t);
+    }
+  }
+}
+
 void set_expansion(Body& body, double time, double dt, int level) {
+  for (std::size_t i = 0; i < body.expansion.size(); ++i) {
+    if (body.is_due(static_cast<int>(i), level)) body.expansion[i].before = body.expansion[i].now;
+  }
+  if (!(dt > 0)) return;
   for (const HeatedPoints& heated : body.heated) {
     for (const int i : heated.points) {
       const double alpha = body.block_of(i).material.thermal_expansion;
       if (alpha == 0 || !body.is_due(i, level)) continue;
-      const Vector X = body.domain.reference(i);
-      const auto strain = [&](double t) {
-        return alpha *
-               (heated.temperature(X[0], X[1], X[2], t) - heated.temperature(X[0], X[1], X[2], heated.reference_time));
-      };
-      PointExpansion& point = body.expansion[i];
-      point.now = strain(time);
-      point.before = dt > 0 ? strain(time - dt * body.share(i, level)) : point.now;
+      body.expansion[i].now = alpha * (temperature(heated, body, i, time) - body.expansion[i].reference);
     }
   }
+}
+
+double sudden_expansion(Body& body, double t) {
+  if (body.heated.empty()) return 0;
+  const std::vector<PointExpansion> kept = *body.expansion;
+  set_expansion(body, t, 1);
+  double most = 0;
+  for (const PointExpansion& point : *body.expansion) most = std::max(most, std::abs(point.now - point.before));
+  body.expansion = kept;
+  return most;
 }
 
 void exchange_expansion(Body& body) {
@@ -35,11 +61,9 @@ void exchange_expansion(Body& body) {
 }
 
 bool expands(const Body& body, std::size_t block) {
-  if (body.blocks[block].material.thermal_expansion == 0) return false;
-  return std::ranges::any_of(body.heated, [&](const HeatedPoints& heated) {
-    return std::ranges::any_of(heated.points,
-                               [&](int i) { return static_cast<std::size_t>(body.domain.cloud.blocks[i]) == block; });
-  });
+  if (body.expansion.empty() || body.blocks[block].material.thermal_expansion == 0) return false;
+  const auto is_heated = [](const PointExpansion& point) { return !std::isnan(point.reference); };
+  return std::ranges::any_of(body.blocks[block].points, [&](int i) { return is_heated(body.expansion[i]); });
 }
 
 }  // namespace strut

@@ -26,13 +26,15 @@ bool has_initial_velocity(const deck::Deck& deck) {
       deck.conditions, [](const deck::Condition& one) { return std::holds_alternative<InitialVelocity>(one.kind); });
 }
 
-// True for data that a checkpoint may lack: a body that could not break is whole, and new contact begins anew.
+// True for data that a checkpoint may lack: a body that could not break is whole, one that was not heated has not
+// expanded, and new contact begins anew.
 bool may_be_missing(const std::string& name) {
-  constexpr std::array of_fracture = {"damage",       "fracture_energy", "released",       "broken_bonds",
-                                      "tensor_state", "scalar_state",    "gradient_state", "quadratic_state"};
+  constexpr std::array of_points = {"thermal_strain", "expansion_pull",  "expansion_work", "reference_temperature",
+                                    "damage",         "fracture_energy", "released",       "broken_bonds",
+                                    "tensor_state",   "scalar_state",    "gradient_state", "quadratic_state"};
   if (name.starts_with("contact_") || name == "penetration" || name == "searches") return true;
   if (name.ends_with("_reach")) return true;  // a tool that was not there
-  return std::ranges::any_of(of_fracture, [&](const char* one) { return name == std::string("all points > ") + one; });
+  return std::ranges::any_of(of_points, [&](const char* one) { return name == std::string("all points > ") + one; });
 }
 
 void check_missing(const std::filesystem::path& file, const std::vector<std::string>& missing,
@@ -120,6 +122,8 @@ void StartState::spare_files(const deck::Deck& deck, deck::Problems& problems) c
 
 std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   Body& body = scene.body;
+  if (std::ranges::any_of(deck.materials, [](const auto& one) { return one.thermal_expansion != 0; }))
+    body.expansion.use(body.owned());  // a body that was heated stays as it is, if nothing heats it here
   const contact::Kinematics kinematics{body.domain, body.velocity, body.density};
   const auto pass = [&](Archive archive, double& last_step) {
     archive.number("dt", last_step);

@@ -1,6 +1,7 @@
 #include "setup/conditions.hpp"
 
 #include <algorithm>
+#include <sstream>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -61,10 +62,10 @@ void put(const ActsOnce auto& prototype, const std::string&, const std::vector<i
   prototype.set_initial_state(points, times.begin, scene.body);
 }
 
-// Points have not expanded in the mesh.
 void put(const PrescribedTemperature& prototype, const std::string&, const std::vector<int>& points, int,
          const Times& times, Scene& scene) {
-  prototype.set_initial_state(points, times.mesh, scene.body);
+  prototype.set_initial_state(points, times.begin, scene.body);
+  scene.conditions.watch(prototype.value);
 }
 
 // If other conditions hold points of a plane in directions not orthogonal to its normal, the plane pushes these points
@@ -133,6 +134,18 @@ std::string look_at_next_steps(const deck::Deck& deck, const PointsOfConditions&
   return sudden_motions(next, points, body) + sampled_pulses(next, points, body);
 }
 
+// Explicit steps after another run: a temperature that is not the one there acts at once.
+std::string sudden_expansion(const deck::Deck& deck, Body& body) {
+  constexpr double round_off = 1e-9;
+  const double most = body.domain.communicator.max(sudden_expansion(body, deck.solver.initial_time));
+  if (most <= round_off || deck.solver.quasi_static) return "";
+  std::ostringstream text;
+  text << "WARNING: temperatures at the initial time are not those of the checkpoint: in the first step points expand "
+          "by up to "
+       << most << ", which sends waves through the bodies (Boundary Conditions, 'Prescribed Temperature')\n";
+  return text.str();
+}
+
 // `place`: index of the condition in the deck.
 void add_condition(const deck::Condition& condition, int place, std::vector<int> points, const SharedPoints& shared,
                    const Times& times, Scene& scene) {
@@ -198,6 +211,7 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
       problems.add(error.what());
     }
   }
+  set_reference_temperatures(scene.body, times.mesh);  // points have not expanded in the mesh
   if (std::ranges::any_of(deck.conditions, is_initial_displacement)) {
     put_back_held(deck, points, scene.body);
     scene.body.domain.halo.exchange_places(scene.body.domain.sites);
@@ -220,6 +234,8 @@ void begin_from_here(const deck::Deck& deck, bool with_initial_velocities,
     if (initial && with_initial_velocities && !deck.next_solver)
       initial->set_initial_state(points.back(), t, scene.body);
   }
+  set_reference_temperatures(scene.body, t);  // of those that were not heated before
+  scene.warnings += sudden_expansion(deck, scene.body);
   scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   scene.conditions.visit([&]<class Type>(Type& one) {

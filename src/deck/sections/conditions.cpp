@@ -39,7 +39,8 @@ Section prescribed_temperature() {
   return {.name = "Prescribed Temperature",
           .meaning =
               "Temperature T at every time: materials with a Thermal Expansion Coefficient α have the thermal strain "
-              "α (T − T₀), T₀ at the initial time (of the first solver). Where several overlap, the last one counts.",
+              "α (T − T₀), T₀ at the initial time (of the first solver; of the first run by Start From). Where several "
+              "overlap, the last one counts.",
           .keys = {of_unit}};
 }
 

@@ -24,7 +24,8 @@ Section start_from_section() {
           .meaning =
               "Bodies begin as another run of the same mesh, blocks, materials, symmetry planes and periodic sides has "
               "left them, on any number of ranks: positions, velocities, stress and state of the laws, temperature, "
-              "broken bonds, friction of surfaces. Conditions, contact, solver and output are those of this deck; "
+              "thermal strain, broken bonds, friction of surfaces. Conditions, contact, solver and output are those of "
+              "this deck; "
               "times begin at Initial Time, work at zero. Where that is the checkpoint's time, and solver and contact "
               "are the same, steps go on as if the other run had not ended (initial velocities of the same "
               "conditions are then past).",

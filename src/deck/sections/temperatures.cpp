@@ -22,16 +22,6 @@ void check_bonds(const HeatedSections& deck, Problems& problems) {
   }
 }
 
-// A bar that yielded and cooled was left with stresses up to a third off, so metals wait.
-void check_metals(const HeatedSections& deck, Problems& problems) {
-  for (const Material& material : deck.materials) {
-    if (material.thermal_expansion == 0 || !std::holds_alternative<materials::J2>(material.law)) continue;
-    problems.add("Materials > " + material.name + " > Thermal Expansion Coefficient",
-                 "of Material Model 'Elastic Plastic Correspondence': expected 'Elastic' or 'Elastic Correspondence', "
-                 "since expansion beyond yield is not verified");
-  }
-}
-
 void check_condition(const HeatedSections& deck, const std::string& path, Problems& problems) {
   for (const Material& material : deck.materials) {
     const bool knows_its_own = std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
@@ -39,16 +29,6 @@ void check_condition(const HeatedSections& deck, const std::string& path, Proble
     problems.add(path, "'Prescribed Temperature' beside material '" + material.name +
                            "', whose temperature follows from its flow; expected materials without Softening, another "
                            "Flow Stress, Heating, an Equation of State or a Shear Modulus Slope");
-  }
-  if (deck.in_equilibria) {
-    problems.add(path,
-                 "'Prescribed Temperature' in equilibria, where bars between walls were not found as they should "
-                 "be; expected the section Solver > Verlet");
-  }
-  if (deck.starts_elsewhere) {
-    problems.add(path,
-                 "'Prescribed Temperature' in a run that starts from another's checkpoint, whose temperatures "
-                 "are not in it; expected no such condition");
   }
   if (std::ranges::none_of(deck.materials, [](const Material& one) { return one.thermal_expansion != 0; }))
     problems.note(path, "has no effect: no material has a Thermal Expansion Coefficient");
@@ -63,10 +43,7 @@ void check_temperatures(const HeatedSections& deck, Problems& problems) {
     any = true;
     check_condition(deck, "Boundary Conditions > " + condition.name, problems);
   }
-  if (any) {
-    check_metals(deck, problems);
-    return check_bonds(deck, problems);
-  }
+  if (any) return check_bonds(deck, problems);
   for (const Material& material : deck.materials) {
     if (material.thermal_expansion == 0) continue;
     problems.note("Materials > " + material.name + " > Thermal Expansion Coefficient",

@@ -11,13 +11,12 @@
 
 namespace strut::deck {
 
-// The sections that thermal expansion concerns; `starts_elsewhere`: the deck has a section Start From.
+// The sections that thermal expansion concerns.
 struct HeatedSections {
   const std::vector<Material>& materials;
   const std::vector<NamedDamageModel>& damage_models;
   const std::vector<Block>& blocks;
   const std::vector<Condition>& conditions;
-  bool starts_elsewhere, in_equilibria;
 };
 
 void check_temperatures(const HeatedSections& deck, Problems& problems);

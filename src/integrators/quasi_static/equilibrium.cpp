@@ -43,7 +43,7 @@ double round_off_of_places(const Body& body) {
 
 // Root of the sum of squares over all points, N: the forces that are left in a body at rest.
 double forces_at_rest(Body& body) {
-  const std::vector<HeatedPoints> heated = std::exchange(body.heated, {});  // a cold body
+  const std::vector<HeatedPoints> heated = std::exchange(body.heated, {});  // at one temperature
   advance_by_any_step(body, 1, 0, false);  // any length: laws in rate form see nothing in a step of no length
   body.heated = heated;
   double sum = 0;
@@ -87,8 +87,8 @@ void Equilibrium::begin(double t, double dt) {
   stretch_sides(t + dt);
   constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
   tools_.begin(body_, t, dt);
-  check_values();
   expansion_scale_ = body_.heated.empty() ? 0 : force_of_expansion();
+  check_values();
 }
 
 // Root of the sum of squares over all points, N: by the expansion of this step while the points stay. A free body has
@@ -174,11 +174,11 @@ std::vector<Vector> Equilibrium::step_way() const {
 
 double Equilibrium::friction_work() const { return contact_.any() ? contact_.friction_work_of_trial(step_way()) : 0; }
 
-// Upper bound by Σ f·u ≤ ‖f‖ ‖u‖.
-double Equilibrium::work_of_round_off() const {
+// Upper bound by Σ f·u ≤ ‖f‖ ‖u‖. A free body that expands has no forces but those that the search has left.
+double Equilibrium::work_of_errors(double tolerance) const {
   double sum = 0;
   for (const Vector& way : step_way()) sum += way.squaredNorm();
-  return round_off_ * std::sqrt(body_.domain.communicator.sum(sum));
+  return (round_off_ + tolerance * expansion_scale_) * std::sqrt(body_.domain.communicator.sum(sum));
 }
 
 // The reactions balance the forces in held directions.

@@ -77,8 +77,10 @@ class Equilibrium {
   // on this rank.
   double external_work() const;
   double tool_work() const { return tools_.work(body_); }
-  double friction_work() const;      // between bodies
-  double work_of_round_off() const;  // upper bound of the work of the round-off forces in this load step, J; collective
+  double friction_work() const;  // between bodies
+  // Collective. Upper bound of the work in this load step of the forces that are no forces, J: of round-off, and those
+  // that a search with this tolerance leaves in a body that expands.
+  double work_of_errors(double tolerance) const;
   // Collective. Reactions of the last trial for this number of conditions of the deck, N.
   Reactions reactions(int conditions) const;
 

@@ -19,9 +19,9 @@ constexpr int most_rounds = 30;          // of the multipliers of tools, per ste
 constexpr int easily = 6;                // iterations of Newton per round up to which the next step may be longer
 constexpr double round_off = 1e-9;
 
-// Energies below this multiple of the work of round-off are no scale for errors: a body that is only carried along has
-// no others. Users are told of errors from 1 % on.
-constexpr double above_round_off = 100;
+// Energies below this multiple of the work of errors are no scale for errors: a body that is only carried along, or
+// only expands, has no others. Users are told of errors from 1 % on.
+constexpr double above_errors = 100;
 
 // Memory per point: 4.8 kB of GMRES vectors, 0.6 kB of the tangent, the rest of the near matrix and its hierarchy.
 // Measured: 222 MiB between bodies of 729 and 13,824 points. The factors of thin bodies are not included.
@@ -164,7 +164,7 @@ void QuasiStatic::commit(const Search& search) {
   external_ += body.domain.communicator.sum(equilibrium_.external_work());
   by_tools_ += body.domain.communicator.sum(equilibrium_.tool_work());
   by_friction_ += body.domain.communicator.sum(equilibrium_.friction_work());
-  largest_energy_ += above_round_off * equilibrium_.work_of_round_off();
+  largest_energy_ += above_errors * equilibrium_.work_of_errors(control_.tolerance.relative);
   last_step_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) last_step_[i] = body.current(i) - equilibrium_.start(i);
   equilibrium_.commit();

@@ -33,6 +33,7 @@ std::vector<int> all_points(const Body& body) {
 
 void warm(Body& body, const std::string& temperature) {
   PrescribedTemperature{Function::parse(temperature)}.set_initial_state(all_points(body), 0, body);
+  set_reference_temperatures(body, 0);
 }
 
 // Held at three layers of points along their normals: each point moves by ε from there, and there is no stress.

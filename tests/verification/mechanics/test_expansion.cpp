@@ -27,7 +27,8 @@ class Expansion : public ::testing::TestWithParam<Case> {
     Body body = lattice_body(spec, world);
     std::vector<int> all(body.owned());
     for (int i = 0; i < body.owned(); ++i) all[i] = i;
-    add_heated(body, {all, Function::parse(temperature), 0});
+    add_heated(body, {all, Function::parse(temperature)});
+    set_reference_temperatures(body, 0);
     return body;
   }
   bool adds_up() const { return GetParam().formulation == Formulation::ordinary; }
