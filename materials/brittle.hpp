@@ -58,6 +58,8 @@ struct Brittle {
   void set_crack(double to_strength, double to_width) { strength = to_strength, width = to_width; }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
+  // The integration points of a cell that softens then open alike, as a crack that is narrower than a cell does.
+  bool has_flowed(const State& state) const { return state.damage > 0; }
 
  private:
   // True if an upper bound of the largest principal stress, mean + ⅔ von Mises, is above the strength.

@@ -16,9 +16,9 @@
 //   dissipation       J per m³ of reference volume: both feed the energy ledger of a run.
 //   equivalent_stress the stress that is compared with the flow stress, Pa.
 //   flow_stress       the equivalent stress at which the point yields, Pa; infinity if it never yields.
-//   has_flowed        optional, for laws whose plastic flow conserves volume: true if the point ever flowed. If
-//                     several integration points follow one motion, they then share their change of volume (volumetric
-//                     locking: src/mechanics/formulation/quadratic.md).
+//   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever did.
+//                     If several integration points follow one motion, they then share their change of volume
+//                     (volumetric locking: src/mechanics/formulation/quadratic.md).
 //   part_left         optional, for laws that soften as they fail: fraction of stress that a point still carries, 1 to
 //                     0, with the state as an argument. It also scales the stabilization.
 //   set_crack_length  optional: sets the length over which a crack smears its opening, m.
@@ -100,7 +100,7 @@ inline constexpr bool has_changing_moduli = requires(const L law, const typename
   law.moduli(state);
 };
 
-// True if a law flows at constant volume and has has_flowed().
+// True if a law has has_flowed().
 template <class L>
 inline constexpr bool tells_flow = requires(const L law, const typename L::State& state) {
   { law.has_flowed(state) } -> std::same_as<bool>;

@@ -42,7 +42,8 @@ std::string bending_of_thin(double horizon, double thickness) {
 std::string resolution_of_thin(const materials::AnyLaw& law, double thickness, bool whole) {
   constexpr double worth_saying = 0.05;
   if (!(thickness > 0) || expected_error(thickness).stiffness < worth_saying) return "";
-  const bool flows = std::visit([]<class L>(const L&) { return materials::tells_flow<L>; }, law);
+  const bool flows =
+      std::visit([]<class L>(const L&) { return materials::tells_flow<L> && !materials::opens_cracks<L>; }, law);
   return "expect " + expected_error_text(thickness, flows ? "in the plateau" : "", whole) +
          "; tools/study --converge spacing measures it (docs/resolution.md)";
 }
