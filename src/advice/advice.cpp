@@ -32,6 +32,7 @@ constexpr Check checks[] = {
     narrow_surfaces_of_nodes,
     sudden_failure,
     noisy_cracks,
+    soft_faces,
     breaks_under_pressure,
     improbable_stretches,
     bonded_contacts,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <sstream>
 
 #include "advice/checks.hpp"
@@ -46,6 +47,22 @@ std::string noisy_cracks(const Situation& situation) {
             "energy, and the four integration points of a cell, which have no mirror image of their own, decide on the "
             "order of breaks: expect no symmetric crack. Choose Damage Model 'Cohesive Crack', or another Formulation, "
             "which is within 10 %\n";
+  }
+  return text;
+}
+
+std::string soft_faces(const Situation& situation) {
+  const Body& body = situation.scene.body;
+  std::string text;
+  for (int b = 0; b < std::ssize(body.blocks); ++b) {
+    const auto& damage = body.blocks[b].material.damage;
+    const auto concerns = [b](const contact::Interaction& one) { return one.first == b || one.second == b; };
+    if (!damage || !damage->is_gradual) continue;
+    if (std::none_of(situation.interactions.begin(), situation.interactions.end(), concerns)) continue;
+    text += "WARNING: block '" + body.blocks[b].name +
+            "' has contact, and cracks by Damage Model 'Cohesive Crack': the cells beside such a crack bear pressure, "
+            "but a thousandth of their shear, so faces that meet again give way, and pieces that are thrown or pressed "
+            "together may gain some percent of the energy (see Balance_Error); a smaller Safety Factor reduces that\n";
   }
   return text;
 }

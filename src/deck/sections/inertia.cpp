@@ -7,7 +7,7 @@ namespace strut::deck {
 
 void check_quasi_static(const Solver& solver, const std::vector<Condition>& conditions,
                         const std::vector<ContactModel>& contact_models, const std::vector<Block>& blocks,
-                        bool steps_follow, Problems& problems) {
+                        const std::vector<NamedDamageModel>& damage_models, bool steps_follow, Problems& problems) {
   if (!solver.quasi_static) return;
   for (const Condition& condition : conditions) {
     if (steps_follow && !std::holds_alternative<InitialDisplacement>(condition.kind)) continue;
@@ -32,7 +32,7 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
                      "friction is that of surfaces, rigid planes and tools");
   }
   for (const Block& block : blocks) {
-    if (!block.damage_model || steps_follow) continue;
+    if (!block.damage_model || (steps_follow && !damage_models[*block.damage_model].model.is_gradual)) continue;
     problems.add("Blocks > " + block.name + " > Damage Model",
                  "bonds cannot break with Solver > QuasiStatic; expected explicit steps (Verlet)");
   }

@@ -79,14 +79,14 @@ problem() {
       mesh_type=Exodus mesh_file=bar.g sets= foot=foot horizon='name="Horizon" value="0.0122"'
       damage='<Parameter name="Damage Model" type="string" value="brittle"/>'
       blocks=$(block bar all copper) ;;
-    mixed | mixed-cells | meeting | touching | breaking | tearing | rending | snapping)
+    mixed | mixed-cells | meeting | touching | breaking | softening | tearing | rending | snapping)
       mesh_type="Text File" mesh_file=mixed.txt foot=below
       sets='<ParameterList name="Node Sets">
         <Parameter name="below" type="string" value="z &lt; 0.0045"/>
       </ParameterList>'
       blocks=$(block lower block_1 copper; block upper block_2 steel) ;;
   esac
-  case $1 in mixed-cells | breaking) formulation="Quadratic Correspondence" viscosity=0.06 ;; esac
+  case $1 in mixed-cells | breaking | softening) formulation="Quadratic Correspondence" viscosity=0.06 ;; esac
   if [ $1 = slow ]; then  # equilibria; the head is held
     speed=0 stabilization=
     solver='<ParameterList name="QuasiStatic">
@@ -104,6 +104,11 @@ problem() {
   fi
   case $1 in silling | slow | mixed | mixed-cells | bar | fast | nodes | cells | cracking) return 0 ;; esac
   [ $1 = breaking ] && speed=100 damage='<Parameter name="Damage Model" type="string" value="brittle"/>'
+  if [ $1 = softening ]; then  # glass whose stress falls before its bonds break, bonded to copper
+    speed=20
+    blocks=$(block lower block_1 copper; damage='<Parameter name="Damage Model" type="string" value="cohesive"/>'; block upper block_2 glass)
+    return 0
+  fi
   if [ $1 = tearing ] || [ $1 = rending ]; then  # copper that fails, bonded to steel that does not
     speed=200 contact=$contact_section
     [ $1 = tearing ] && stabilization='<Parameter name="Stabilization" type="string" value="Silling"/>'
@@ -174,8 +179,19 @@ deck() {
       <Parameter name="Young's Modulus" type="double" value="200.0e9"/>
       <Parameter name="Poisson's Ratio" type="double" value="0.3"/>
     </ParameterList>
+    <ParameterList name="glass">
+      <Parameter name="Material Model" type="string" value="Elastic Correspondence"/>
+      <Parameter name="Formulation" type="string" value="Quadratic Correspondence"/>
+      <Parameter name="Density" type="double" value="2500"/>
+      <Parameter name="Young's Modulus" type="double" value="70.0e9"/>
+      <Parameter name="Poisson's Ratio" type="double" value="0.22"/>
+    </ParameterList>
   </ParameterList>
   <ParameterList name="Damage Models">
+    <ParameterList name="cohesive">
+      <Parameter name="Damage Model" type="string" value="Cohesive Crack"/>
+      <Parameter name="Fracture Energy" type="double" value="300"/>
+    </ParameterList>
     <ParameterList name="brittle">
       <Parameter name="Damage Model" type="string" value="Critical Stretch"/>
       <Parameter name="Critical Stretch" type="double" value="0.02"/>

@@ -713,5 +713,31 @@ TEST(DeckOfPeridigm, PointsThatFailAreThoseOfMetals) {
   refused(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 0.4, D3: 3.0"), "Damage Models > growing > D3: ");
 }
 
+// Solids whose stress falls before bonds break: ours, in the same deck. In equilibria it would fall and no bond break.
+TEST(DeckOfPeridigm, GradualCracksAreThoseOfElasticQuadraticCells) {
+  const DeckFolder folder;
+  const std::string cohesive =
+      changed(fracturing,
+              "\"Time Dependent Critical Stretch\", Time Dependent Critical Stretch: \"0.001 + "
+              "t\"",
+              "\"Cohesive Crack\", Fracture Energy: 4.0");
+  const auto of = [&](const std::string& material) { return changed(cohesive, "\"Elastic\"", material); };
+  const std::string quadratic = of("\"Elastic Correspondence\", Formulation: \"Quadratic Correspondence\"");
+  EXPECT_TRUE(folder.read(quadratic).damage_models[1].model.is_gradual);
+  for (const std::string& other : {cohesive, of("\"Elastic Correspondence\"")}) {
+    EXPECT_NE(folder.error(other).find("Blocks > all of it > Damage Model: material 'glass' cannot crack by model "
+                                       "'growing': expected the Material Model 'Elastic Correspondence' with "
+                                       "Formulation 'Quadratic Correspondence'"),
+              std::string::npos);
+  }
+  const std::string equilibria = "QuasiStatic: {Number of Load Steps: 1}";
+  const std::string both =
+      changed(quadratic, "Verlet: {Safety Factor: 0.7}",
+              equilibria + "\n  Solver 2:\n    Final Time: 2.0e-5\n    Verlet: {Safety Factor: 0.7}");
+  EXPECT_NE(folder.error(both).find("Blocks > all of it > Damage Model: bonds cannot break with Solver > QuasiStatic"),
+            std::string::npos)
+      << folder.error(both);
+}
+
 }  // namespace
 }  // namespace strut::deck

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <random>
 
 #include "base/archive.hpp"
 #include "contact/contact.hpp"
 #include "contract/polyurethane.hpp"
+#include "fracture/fragments.hpp"
 #include "fracture/separation.hpp"
 #include "mechanics/energies.hpp"
 #include "mechanics/serialize.hpp"
@@ -28,6 +30,7 @@ struct Kind {
   double horizon;  // in spacings
   bool by_energy = false;
   FamilyKind families = FamilyKind::lists;
+  bool is_gradual = false;
 };
 
 const std::vector<Kind> kinds = {
@@ -43,6 +46,14 @@ const std::vector<Kind> kinds = {
      FamilyKind::stencil},
 };
 
+const Kind cohesive{"cohesive", Formulation::quadratic, NoStabilization(), 1.75, false, FamilyKind::lists, true};
+
+std::vector<Kind> and_cohesive() {
+  std::vector<Kind> all = kinds;
+  all.push_back(cohesive);
+  return all;
+}
+
 // Energy of a bond of 1.4 mm at a stretch, roughly, in a lattice of 1 mm and this horizon: ω = 1 and no dilatation.
 double energy_at(const Kind& kind, double stretch) {
   const double shear = young / (2 * (1 + poisson));
@@ -50,7 +61,22 @@ double energy_at(const Kind& kind, double stretch) {
   return 15 * shear / m * std::pow(stretch * 1.4e-3, 2);
 }
 
+// A glass of this fracture energy, J/m².
+BlockMaterial tough_glass(const Kind& kind, double energy) {
+  BlockMaterial material{density, elastic(young, poisson), kind.stabilization, kind.formulation};
+  material.damage = DamageModel{.fracture_energy = energy, .is_gradual = kind.is_gradual};
+  if (kind.is_gradual) material.law = materials::cracking(material.law, energy).value();
+  return material;
+}
+
+// The fracture energy whose gradual crack breaks bonds at a stretch, in touching cells of 1 mm: s = 0.52 (2 G_c/σ_c)/h
+// with σ_c² = E G_c/(4 h).
+double energy_of_gradual(double stretch) {
+  return young * 1e-3 * std::pow(stretch / (4 * std::sqrt((1 + 4.0 / 4 + 4.0 / 9) / 9)), 2);
+}
+
 BlockMaterial glass(const Kind& kind, double critical_stretch) {
+  if (kind.is_gradual) return tough_glass(kind, energy_of_gradual(critical_stretch));
   BlockMaterial material{density, elastic(young, poisson), kind.stabilization, kind.formulation};
   material.damage = kind.by_energy ? DamageModel{.critical_bond_energy = energy_at(kind, critical_stretch)}
                                    : DamageModel{Function(critical_stretch)};
@@ -277,7 +303,7 @@ Outcome tear(const LatticeSpec& block, double crossings, const Tensor& rates = p
 }
 
 TEST(Fracture, ConservesMomentumAndEnergy) {
-  for (const Kind& kind : kinds) {
+  for (const Kind& kind : and_cohesive()) {
     SCOPED_TRACE(kind.name);
     const Outcome outcome = tear(block_of(kind, 5e-4), 6);
     EXPECT_GT(outcome.broken, 1000);
@@ -482,47 +508,80 @@ TEST(Fracture, KeepsTheBalanceWithRandomDamage) {
 // ---- What a crack takes that grows slowly --------------------------------------------------------------------------
 
 // A notched strip of 30 × 4 × 20 points whose edges are turned apart, so that the offered energy falls along the path:
-// a crack follows slowly. Its dissipation over s_c² G_c, by its length, which is the sum of the damage beside it over
-// its value behind the tip.
-double taken_by_slow_crack(const Kind& kind) {
-  constexpr double h = 1e-3, notch = 9e-3, taper = 30e-3, height = 20e-3, toughness = 10;
-  const Communicator world;
-  LatticeSpec spec{{30, 4, 20}, h, kind.horizon};
-  spec.material = glass(kind, 1);
-  spec.material.damage = DamageModel{.fracture_energy = toughness};
-  spec.cracks = {RectangularCrack{Vector(-1, -1, height / 2), Vector(0, 0, 1), Vector(0, 1, 0), 2, 1 + notch}};
-  Body body = lattice_body(spec, world);
-  Fracture fracture(body);
-  // u = rate t (notch + taper − x) at an edge; a long strip offers 2 E u²/height: the toughness at the notch, at t = 1.
-  const double moment = 150e-6, rate = std::sqrt(toughness * height / (2 * young)) / (moment * taper);
-  Conditions conditions;
-  for (const int side : {-1, 1}) {
-    std::vector<int> edge;
-    for (int i = 0; i < body.owned(); ++i) {
-      const double from_middle = body.domain.reference(i)[2] - height / 2;
-      if (side * from_middle > height / 2 - 3.01 * h) edge.push_back(i);
+// a crack follows slowly.
+class SlowCrack {
+ public:
+  SlowCrack(const Kind& kind, const Communicator& world) : body_(strip(kind, world)) {
+    Fracture fracture(body_);
+    // u = rate t (notch + taper − x) at an edge; a long strip offers 2 E u²/height: the toughness at the notch, at t
+    // = 1.
+    const double rate = std::sqrt(toughness * height / (2 * young)) / (moment * taper);
+    Conditions conditions;
+    for (const int side : {-1, 1}) {
+      std::vector<int> edge;
+      for (int i = 0; i < body_.owned(); ++i) {
+        const double from_middle = body_.domain.reference(i)[2] - height / 2;
+        if (side * from_middle > height / 2 - 3.01 * h) edge.push_back(i);
+      }
+      const std::string value = std::to_string(side * rate) + "*(" + std::to_string(notch + taper) + " - x)";
+      conditions.add(PrescribedMotion{std::move(edge), {2}, Function::parse(value), true});
     }
-    const std::string value = std::to_string(side * rate) + "*(" + std::to_string(notch + taper) + " - x)";
-    conditions.add(PrescribedMotion{std::move(edge), {2}, Function::parse(value), true});
+    for (int i = 0; i < body_.owned(); ++i) {
+      const Vector X = body_.domain.reference(i);
+      body_.velocity[i][2] = rate * (notch + taper - X[0]) * (2 * X[2] / height - 1);
+    }
+    solver_.emplace(body_, conditions, contact::Contact(), StepControl{0, 0.8}, 0, std::move(fracture));
   }
-  for (int i = 0; i < body.owned(); ++i) {
-    const Vector X = body.domain.reference(i);
-    body.velocity[i][2] = rate * (notch + taper - X[0]) * (2 * X[2] / height - 1);
+
+  // Collective. Goes on to a time, in units of that when the notch may begin to grow.
+  void grow_until(double time) { run_until(*solver_, time * moment); }
+  double spent() const { return stored_energies(body_).fracture; }  // collective; J
+  // The sum of the damage beside the plane over its value behind the tip, m.
+  double length() const {
+    std::vector<double> beside(30, 0.0);
+    for (int i = 0; i < body_.owned(); ++i) {
+      const Vector X = body_.domain.reference(i);
+      if (std::abs(X[2] - height / 2) < h && X[0] > notch) beside[static_cast<int>(X[0] / h)] += body_.damage[i];
+    }
+    body_.domain.communicator.sum(beside);
+    const double passed = (beside[11] + beside[12] + beside[13] + beside[14]) / 4;
+    return h * std::accumulate(beside.begin(), beside.end(), 0.0) / passed;
   }
-  CentralDifference solver(body, conditions, {}, {0, 0.8}, 0, std::move(fracture));
-  run_until(solver, 1.7 * moment);
-  std::vector<double> beside(30, 0.0);
-  double spent = 0;
-  for (int i = 0; i < body.owned(); ++i) {
-    const Vector X = body.domain.reference(i);
-    spent += body.fracture_energy[i];
-    if (std::abs(X[2] - height / 2) < h && X[0] > notch) beside[static_cast<int>(X[0] / h)] += body.damage[i];
+  // The same of a gradual crack by the stress that has fallen, on one side of the plane (-1 or 1): behind the tip there
+  // is none left.
+  double softened_length(int side) const {
+    const MaterialBlock& block = body_.blocks[0];
+    double sum = 0;
+    for (int k = 0; k < std::ssize(block.points); ++k) {
+      const Vector X = body_.domain.reference(block.points[k]);
+      const double above = side * (X[2] - height / 2);
+      if (above < 0 || above > h || X[0] < notch) continue;
+      for (int q = 0; q < 4; ++q) sum += 0.25 * block.state_of<materials::Brittle>(block.place(k, q)).damage;
+    }
+    return h * body_.domain.communicator.sum(sum) / 4;
   }
-  world.sum(beside);
-  const double passed = (beside[11] + beside[12] + beside[13] + beside[14]) / 4;
-  const double length = h * std::accumulate(beside.begin(), beside.end(), 0.0) / passed;
-  EXPECT_GT(length, 8 * h);
-  return world.sum(spent) / (length * 4 * h) / toughness;
+
+  static constexpr double h = 1e-3, notch = 9e-3, taper = 30e-3, height = 20e-3, toughness = 10, moment = 150e-6;
+
+ private:
+  static Body strip(const Kind& kind, const Communicator& world) {
+    LatticeSpec spec{{30, 4, 20}, h, kind.horizon};
+    spec.material = tough_glass(kind, toughness);
+    spec.cracks = {RectangularCrack{Vector(-1, -1, height / 2), Vector(0, 0, 1), Vector(0, 1, 0), 2, 1 + notch}};
+    return lattice_body(spec, world);
+  }
+
+  Body body_;
+  std::optional<CentralDifference> solver_;
+};
+
+// Its dissipation over G_c times its area.
+double taken_by_slow_crack(const Kind& kind) {
+  const Communicator world;
+  SlowCrack crack(kind, world);
+  crack.grow_until(1.7);
+  EXPECT_GT(crack.length(), 8 * crack.h);
+  return crack.spent() / (crack.length() * 4 * crack.h) / crack.toughness;
 }
 
 // A cut through four layers takes 5 % more than G_c, as their faces are stiffer, and some bonds beside the plane break,
@@ -535,6 +594,22 @@ TEST(Fracture, ASlowCrackTakesTheFractureEnergy) {
     const Kind kind{"", Formulation::correspondence, springs, 3.015, false, FamilyKind::stencil};
     EXPECT_NEAR(taken_by_slow_crack(kind), 0.95, 0.1);
   }
+}
+
+// The zone that softens takes the same at both times, which their difference leaves out. Longer strips take 1.03 to
+// 1.07 G_c along a lattice (docs/decisions.md); some 0.04 more or less for a crack of 7 spacings and one of its zones.
+// The four places of a cell have no mirror image, so both sides soften alike but for some percent.
+TEST(Fracture, AGradualCrackTakesTheFractureEnergy) {
+  const Communicator world;
+  SlowCrack crack(cohesive, world);
+  const auto length = [&crack] { return 0.5 * (crack.softened_length(-1) + crack.softened_length(1)); };
+  crack.grow_until(1.1);
+  const double spent = crack.spent(), before = length();
+  crack.grow_until(1.6);
+  const double grown = length() - before;
+  EXPECT_GT(grown, 6 * crack.h);
+  EXPECT_NEAR((crack.spent() - spent) / (grown * 4 * crack.h) / crack.toughness, 1.05, 0.05);
+  EXPECT_NEAR(crack.softened_length(-1) / crack.softened_length(1), 1, 0.03);
 }
 
 // ---- Contact of what was bonded, or would be -----------------------------------------------------------------------
@@ -628,20 +703,25 @@ TEST(Cracks, HalvesBounce) {
 // The halves of a block are torn apart, and pushed into each other.
 TEST(Fracture, PiecesTouch) {
   const Communicator world;
-  Body body = lattice_body(block_of(kinds[0], 1e-4), world);
-  Fracture fracture(body);
-  advance_stress(body, 0, false, 0, &fracture);
-  contact::Contact contact = with_itself(body);
-  const auto forces_at = [&](double gap) {
-    deform(body, fracture, [&](const Vector& X) -> Vector { return X + Vector(0, 0, X[2] > 5e-3 ? gap : 0); });
-    advance_stress(body, 1e-9, false, 1e-9, &fracture);
-    return force_above(5e-3, body, contact);
-  };
-  EXPECT_EQ(forces_at(0), 0);
-  EXPECT_EQ(forces_at(10e-3), 0);     // torn
-  EXPECT_EQ(forces_at(-0.05e-3), 0);  // pairs touch at 0.9 of their first distance
-  forces_at(-0.1e-3);                 // about to touch: a search is due
-  EXPECT_GT(forces_at(-0.2e-3), 0);
+  for (const Kind& kind : {kinds[0], cohesive}) {
+    SCOPED_TRACE(kind.name);
+    Body body = lattice_body(block_of(kind, 1e-4), world);
+    Fracture fracture(body);
+    advance_stress(body, 0, false, 0, &fracture);
+    contact::Contact contact = with_itself(body);
+    const auto forces_at = [&](double gap) {
+      deform(body, fracture, [&](const Vector& X) -> Vector { return X + Vector(0, 0, X[2] > 5e-3 ? gap : 0); });
+      advance_stress(body, 1e-9, false, 1e-9, &fracture);
+      return force_above(5e-3, body, contact);
+    };
+    EXPECT_EQ(forces_at(0), 0);
+    EXPECT_EQ(forces_at(10e-3), 0);  // torn
+    const std::size_t pieces = fragments(body).size();
+    EXPECT_EQ(pieces, world.rank() == 0 ? 2U : 0U);
+    EXPECT_EQ(forces_at(-0.05e-3), 0);  // pairs touch at 0.9 of their first distance
+    forces_at(-0.1e-3);                 // about to touch: a search is due
+    EXPECT_GT(forces_at(-0.2e-3), 0);
+  }
 }
 
 }  // namespace
