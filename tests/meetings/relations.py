@@ -373,8 +373,6 @@ def steps_afterwards(case):
 
 def started_from(case):
     """In the middle, by a signal; another run starts from that checkpoint at its time (Start From): fields to the last bit on any ranks."""
-    if case.scene.has("Prescribed Temperature"):
-        raise NotHere("refused: the temperatures at the start of the first run are not in its checkpoint")
     rng = case.chance("started from")
     scene, word = case.scene.copy(), "dt"
     if not scene.explicit:

@@ -545,11 +545,10 @@ class Draft:
         return made | self.motion(held, thrown) if self.explicit else made
 
     def may_be_warmed(self):
-        """Whether something expands, and no law has another temperature or waits for a test of its expansion."""
-        expands = [m for m in self.of_material.values() if "Thermal Expansion Coefficient" in m]
-        metals = [m for m in expands if m["Material Model"] == "Elastic Plastic Correspondence"]
+        """Whether something expands, and no law has another temperature, no bond an energy that counts from cold."""
+        expands = any("Thermal Expansion Coefficient" in m for m in self.of_material.values())
         bonds = any(model["Damage Model"] == "Bond Energy" for model in self.damage.values())
-        return self.explicit and expands and not metals and not bonds and not any(map(self.knows_temperature, self.of_material.values()))
+        return expands and not bonds and not any(map(self.knows_temperature, self.of_material.values()))
 
     def sides(self, conditions, contact):
         """Sides at both ends of the bodies along an axis, that nothing stands across; {} where they do not fit."""
