@@ -43,6 +43,18 @@ def start(deck, checkpoint, time=0.0, keep_velocities=None, **sections):
                         **{name.replace("_", " "): value for name, value in sections.items()}})
 
 
+def expanding(temperature, **sections):
+    """A deck of a metal, one of cells and one of an ordinary solid, whose points have this temperature; None: nothing heats them."""
+    warmth = {"warmth": {"Type": "Prescribed Temperature", "Node Set": "all", "Value": temperature}} if temperature else {}
+    metal = {**block.deck()["Materials"]["metal"], "Thermal Expansion Coefficient": 2e-5}
+    decks = {}
+    for name, more in {"metal": {}, "cells": {"Formulation": "Quadratic Correspondence"},
+                       "ordinary": {"Material Model": "Elastic", "Yield Stress": None}}.items():
+        deck = but(block.deck(Materials={"metal": {**metal, **more}}), **sections)
+        decks[name] = but(deck, Boundary_Conditions={**deck["Boundary Conditions"], **warmth})
+    return decks
+
+
 def ended(deck, steps, mesh=None, name="first.restart"):
     """A run that is ended early, with a checkpoint."""
     run = strut.Run(but(deck, Restart={"Filename": name}), mesh)
@@ -122,6 +134,28 @@ class Starts(InFolder):
                     solver = solver.get("" if images and name == "elastic" else name, deck["Solver"])
                     conditions = {**deck["Boundary Conditions"], **images}
                     self.goes_on(but(deck, Boundary_Conditions=conditions, Solver=solver), 12, block.mesh())
+
+    def test_warmed_bodies_go_on_with_the_same_bits(self):
+        for name, deck in expanding("293 + 1e8*t*(1 + 100*x)").items():
+            with self.subTest(name):
+                self.goes_on(deck, 12, block.mesh())
+
+    def test_a_warmed_body_keeps_its_size_where_nothing_heats_it_and_cools_to_its_first(self):
+        """T₀ is that of the first run. A free body has no stress."""
+        held = {axis: {"Type": "Prescribed Displacement", "Node Set": f"block_{axis}min", "Coordinate": axis, "Value": "0"}
+                for axis in "xyz"}
+        solver = {"Final Time": 1.0, "QuasiStatic": {"Number of Load Steps": 2, "Tolerance": 1e-8}}
+        here = dict(Boundary_Conditions=held, History={"Frequency": 1}, Solver=solver)
+        warmed, left, cooled = (expanding(value, **here) for value in ("293 + 500*t", None, "793 - 500*t"))
+        for name, deck in warmed.items():
+            with self.subTest(name):
+                grown = strut.run(but(deck, Restart={"Filename": "first.restart"}), block.mesh()).whole("Displacement")
+                self.assertAlmostEqual(np.abs(grown).max(), 0.01 * 7 * SPACING, delta=1e-6 * SPACING)
+                for second, expected in ((left[name], grown), (cooled[name], 0 * grown)):
+                    run = strut.run(start(second, "first.restart"), block.mesh())
+                    # The forces that are left, 1e-8 of those of a held body, act most on the softest motions.
+                    self.assertLess(np.abs(run.whole("Displacement") - expected).max(), 1e-5 * 0.01 * 7 * SPACING)
+                    self.assertLess(np.abs(run.whole("Cauchy_Stress")).max(), 1e-5 * 0.01 * 70e9)
 
     @unittest.skipUnless("STRUT_MPIRUN" in os.environ, "no mpirun is named")
     def test_on_two_ranks_that_share_the_work_anew_it_goes_on_with_the_same_numbers(self):
