@@ -149,6 +149,28 @@ TEST(Improbable, TemperaturesOfAMaterialInCelsiusAreWarnedOf) {
   EXPECT_EQ(failing("298", "1356").find("D5"), std::string::npos);
 }
 
+// Cells beside a gradual crack bear no shear: faces that meet again give way.
+TEST(Cracks, FacesOfGradualOnesThatMayTouchAreWarnedOf) {
+  const auto told_with = [](const std::string& model, const std::string& contact) {
+    Parts parts = flying();
+    parts.materials = changed(copper(), "Elastic Correspondence\"/>\n",
+                              "Elastic Correspondence\"/>\n" + key("Formulation", "Quadratic Correspondence"));
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                        key("Damage Model", "breaks"));
+    parts.damage = section("breaks", key("Damage Model", model) + key("Fracture Energy", "100"));
+    if (!contact.empty()) {
+      parts.contact = section("Models", section("m", key("Contact Model", "Surface"))) +
+                      section("Interactions", section(contact, key("Contact Model", "m")));
+    }
+    const RunFolder folder;
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  const std::string warning = "the cells beside such a crack bear pressure, but a thousandth of their shear";
+  expect_told(told_with("Cohesive Crack", "Self Contact"), {"block 'bar' has contact", warning});
+  EXPECT_EQ(told_with("Cohesive Crack", "").find(warning), std::string::npos);
+  EXPECT_EQ(told_with("Critical Stretch", "Self Contact").find(warning), std::string::npos);
+}
+
 TEST(Improbable, HeatsAndHardeningInOtherUnitsAreWarnedOf) {
   const auto heating = [](const std::string& heat) { return section("Heating", key("Specific Heat", heat)); };
   expect_told(told_of_copper(heating("0.383")), {"has a Specific Heat of 0.383 J/(kg K)"});
