@@ -5,8 +5,8 @@
 
 Scenes: in explicit steps a plastic bar that strikes a plane with an ordinary elastic one behind it (points that are
 subcycled, contact, friction, viscosity, reactions), the same by quadratic correspondence, and with bonds that break,
-and between periodic sides; equilibria between tools, also while periodic sides come nearer, and of surfaces that rub on
-each other. Each is run once without a break. Then it is ended by
+and between periodic sides, while bodies are warmed; equilibria between tools, also while periodic sides come nearer and
+bodies are warmed, and of surfaces that rub on each other. Each is run once without a break. Then it is ended by
 SIGTERM, by its wall time again and again, by N SIGKILLs at random times (a checkpoint is written every third step, so
 that many of them come in the middle of that, of a frame or of a line), by the loss of a rank, by a full disk; and goes
 on. Histories must be the same to the last byte and fields to the last bit on as many ranks; 1e-12 on others.
@@ -186,22 +186,30 @@ def sides(**more):
     return section("sides", keys(Type="Periodic Sides", Coordinate="x", Lower=-half, Upper=half, **more))
 
 
-def with_sides(text, condition):
+def with_condition(text, condition):
     conditions = '<ParameterList name="Boundary Conditions">'
     assert conditions in text
     return text.replace(conditions, conditions + condition)
 
 
+def warmed(text, temperature):
+    """All bodies expand."""
+    density = '<Parameter name="Density"'
+    assert density in text
+    text = text.replace(density, keys(Thermal_Expansion_Coefficient=2e-5) + density)
+    return with_condition(text, section("warmth", keys(Type="Prescribed Temperature", Node_Set="all", Value=temperature)))
+
+
 def periodic():
-    """The same between periodic sides, through which bonds and contact go."""
-    text = cells()[0].replace("cells.", "periodic.")
-    return [with_sides(text, sides()).replace('"Reaction_Z(wall)"', '"Reaction_X(sides)" type="bool" value="true"/><Parameter name="Reaction_Z(wall)"')]
+    """The same between periodic sides, through which bonds and contact go, while bodies are warmed."""
+    text = warmed(cells()[0].replace("cells.", "periodic."), "293 + 1e6*t*(1 + 10*z)")
+    return [with_condition(text, sides()).replace('"Reaction_Z(wall)"', '"Reaction_X(sides)" type="bool" value="true"/><Parameter name="Reaction_Z(wall)"')]
 
 
 def stretched():
-    """The equilibria between tools, while the periodic sides come nearer."""
-    text = press()[0].replace("press.", "stretched.")
-    return [with_sides(text, sides(Stretch="1 - 0.01*t"))]
+    """The equilibria between tools, while the periodic sides come nearer and bodies are warmed."""
+    text = warmed(press()[0].replace("press.", "stretched."), "293 + 100*t*(1 + 10*z)")
+    return [with_condition(text, sides(Stretch="1 - 0.01*t"))]
 
 
 def breaking():

@@ -157,6 +157,12 @@ class Starts(InFolder):
                     self.assertLess(np.abs(run.whole("Displacement") - expected).max(), 1e-5 * 0.01 * 7 * SPACING)
                     self.assertLess(np.abs(run.whole("Cauchy_Stress")).max(), 1e-5 * 0.01 * 70e9)
 
+    def test_temperatures_that_are_not_those_of_the_checkpoint_are_told(self):
+        ended(expanding("293 + 1e8*t")["metal"], 12, block.mesh())
+        for there, told in (("493 + 1e8*t", False), ("293", True)):
+            second = start(expanding(there)["metal"], "first.restart", Solver={"Final Time": 1e-6, "Initial Time": 0.0})
+            self.assertEqual("are not those of the checkpoint" in strut.run(second, block.mesh()).log, told, there)
+
     @unittest.skipUnless("STRUT_MPIRUN" in os.environ, "no mpirun is named")
     def test_on_two_ranks_that_share_the_work_anew_it_goes_on_with_the_same_numbers(self):
         """Bodies with substeps, and whose bonds break. Sums over ranks are in another order: 1e-9 of each column."""
