@@ -46,6 +46,19 @@ void check_missing(const std::filesystem::path& file, const std::vector<std::str
                                                     "need: " + joined(needed));
 }
 
+// Collective. True if the checkpoint has a thermal strain: its points stay as they are if nothing heats them here.
+bool has_expanded(const std::filesystem::path& file, Body& body) {
+  Snapshot asked;
+  Archive archive = Archive::saving_to(asked);
+  serialize_for_start(archive, body);
+  std::erase_if(asked.groups, [](const Snapshot::Group& group) { return group.name != "all points"; });
+  for (Snapshot::Group& group : asked.groups)
+    group.columns = {{"thermal_strain", 1, std::vector<double>(group.ids.size())}};
+  asked.numbers.clear(), asked.shares.clear();
+  const auto all = [](const std::string&) { return true; };
+  return io::read_checkpoint_parts(file, body.domain.communicator, all, asked).missing.empty();
+}
+
 // The stretch of periodic sides is that of the checkpoint, or all images would jump.
 std::string other_stretch(const deck::Deck& deck, const std::vector<Period>& periods, const Snapshot& found) {
   const double t = deck.solver.initial_time;
@@ -122,8 +135,9 @@ void StartState::spare_files(const deck::Deck& deck, deck::Problems& problems) c
 
 std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   Body& body = scene.body;
-  if (std::ranges::any_of(deck.materials, [](const auto& one) { return one.thermal_expansion != 0; }))
-    body.expansion.use(body.owned());  // a body that was heated stays as it is, if nothing heats it here
+  const bool may_expand =
+      std::ranges::any_of(deck.materials, [](const auto& one) { return one.thermal_expansion != 0; });
+  if (may_expand && has_expanded(file_, body)) body.expansion.use(body.owned());
   const contact::Kinematics kinematics{body.domain, body.velocity, body.density};
   const auto pass = [&](Archive archive, double& last_step) {
     archive.number("dt", last_step);
