@@ -77,18 +77,17 @@ void Couples::add_forces(const Domain& domain, const std::vector<Neighborhood>& 
 // the same force along the normal: those of the images are a half.
 void Couples::add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const {
   if (forces_.empty() || domain.mirrors.empty()) return;
-  const auto is_of = [&](int i, int body) { return domain.blocks[domain.cloud.blocks[i]].body == body; };
   const auto on_body = [&](int body) {
     Vector sum = Vector::Zero();
     for_each_force([&](int i, const Vector& force) {
-      if (is_of(i, body)) sum += force;
+      if (domain.body_of(i) == body) sum += force;
     });
     return sum;
   };
   const auto of_images = [&](int body, const std::vector<char>& behind) {
     Vector sum = Vector::Zero();
     for (const int i : affected_) {
-      if (!is_of(i, body)) continue;
+      if (domain.body_of(i) != body) continue;
       domain.families.for_each(i, [&](int j) {
         if (behind[j]) sum += 2 * domain.volume(i) * density(domain, i, j);
       });

@@ -115,10 +115,8 @@ class Near {
   mutable std::vector<int> found_;
 };
 
-std::int64_t body_of(const Domain& domain, int i) { return domain.blocks[domain.cloud.blocks[i]].body; }
-
 bool is_of(const Domain& domain, const BlockPair& blocks, int i) {
-  const std::int64_t body = body_of(domain, i);
+  const std::int64_t body = domain.body_of(i);
   return body == domain.blocks[blocks.first].body || body == domain.blocks[blocks.second].body;
 }
 
@@ -153,7 +151,7 @@ void add_piece(const Domain& domain, int i, std::vector<Piece>& pieces) {
                     .area = area,
                     .spread = spread,
                     .spacing = spacing,
-                    .body = body_of(domain, i),
+                    .body = domain.body_of(i),
                     .id = domain.id(i)});
 }
 
@@ -189,7 +187,7 @@ Images images_of(const Domain& domain, double reach) {
   for (const Mirror& mirror : domain.mirrors) {
     Eigen::AlignedBox3d box;
     for (int i = 0; i < domain.owned; ++i) {
-      if (body_of(domain, i) == mirror.body) box.extend(domain.reference(i));
+      if (domain.body_of(i) == mirror.body) box.extend(domain.reference(i));
     }
     boxes.push_back(common_box(box, domain.communicator));
   }
@@ -213,7 +211,7 @@ void compare_with_face(const Domain& domain, const BlockPair& blocks, double rea
   for (int i = 0; i < domain.owned; ++i) {
     if (!is_of(domain, blocks, i)) continue;
     const Vector X = domain.reference(i);
-    grains.push_back({{X[0], X[1], X[2]}, domain.volume(i), body_of(domain, i), domain.id(i)});
+    grains.push_back({{X[0], X[1], X[2]}, domain.volume(i), domain.body_of(i), domain.id(i)});
     filled.extend(X);
   }
   filled = common_box(filled, domain.communicator);
@@ -277,7 +275,7 @@ double reach_to_surface(const Domain& domain, int i) {
 void look_at(const Domain& domain, const BlockPair& blocks, double reach, const Near<Piece>& pieces,
              OwnSurface& surface) {
   for (std::size_t k = 0; k < blocks.points.size(); ++k) {
-    const int i = blocks.points[k], body = static_cast<int>(body_of(domain, i));
+    const int i = blocks.points[k], body = domain.body_of(i);
     const Vector X = domain.reference(i);
     const double spacing = domain.cloud.spacings[i];
     surface.volumes[k] *= scale(pieces, X, body, tells / reach_in_spacings * reach);

@@ -16,7 +16,8 @@
 //   dissipation       J per m³ of reference volume: both feed the energy ledger of a run.
 //   equivalent_stress the stress that is compared with the flow stress, Pa.
 //   flow_stress       the equivalent stress at which the point yields, Pa; infinity if it never yields.
-//   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever did.
+//   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever flowed or
+//                     softened.
 //                     If several integration points follow one motion, they then share their change of volume
 //                     (volumetric locking: src/mechanics/formulation/quadratic.md).
 //   part_left         optional, for laws that soften as they fail: fraction of stress that a point still carries, 1 to

@@ -68,14 +68,32 @@ double mass_of(const Body& body) {
   return body.domain.communicator.sum(mass);
 }
 
+struct WaveSpeeds {
+  double least = std::numeric_limits<double>::infinity(), most = 0;  // m/s, of all blocks
+};
+
+WaveSpeeds wave_speeds(const Body& body) {
+  WaveSpeeds speeds;
+  for (const MaterialBlock& block : body.blocks) {
+    speeds.least = std::min(speeds.least, wave_speed(block.material));
+    speeds.most = std::max(speeds.most, wave_speed(block.material));
+  }
+  return speeds;
+}
+
+// Velocities of all points at the start, m/s.
+Eigen::AlignedBox3d velocities_of(const std::vector<Trajectory>& trajectories) {
+  Eigen::AlignedBox3d velocities;
+  for (const Trajectory& one : trajectories) velocities.extend(one.velocities);
+  return velocities;
+}
+
 // Largest difference of the velocities of points and tools, m/s.
 double largest_difference(const Situation& situation) {
   const Scene& scene = situation.scene;
-  const auto& trajectories = situation.trajectories;
   const double start = situation.start, duration = situation.duration;
   const double moment = first_moment * duration;
-  Eigen::AlignedBox3d velocities;
-  for (const Trajectory& one : trajectories) velocities.extend(one.velocities);
+  Eigen::AlignedBox3d velocities = velocities_of(situation.trajectories);
   for (const RigidTool& tool : tools_of(scene.conditions))
     velocities.extend(Vector((tool.offset(start + moment) - tool.offset(start)) / moment));
   return velocities.isEmpty() ? 0 : velocities.diagonal().norm();
@@ -85,11 +103,7 @@ double largest_difference(const Situation& situation) {
 
 std::string outline(const Situation& situation) {
   const Scene& scene = situation.scene;
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (const MaterialBlock& block : scene.body.blocks) {
-    least = std::min(least, wave_speed(block.material));
-    most = std::max(most, wave_speed(block.material));
-  }
+  const auto [least, most] = wave_speeds(scene.body);
   const Vector size = box_of(scene.body).sizes();
   std::ostringstream text;
   text.precision(4);
@@ -239,11 +253,7 @@ std::string improbable_scales(const Situation& situation) {
   const Scene& scene = situation.scene;
   const double duration = situation.duration;
   const double size = box_of(scene.body).sizes().maxCoeff();
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (const MaterialBlock& block : scene.body.blocks) {
-    least = std::min(least, wave_speed(block.material));
-    most = std::max(most, wave_speed(block.material));
-  }
+  const auto [least, most] = wave_speeds(scene.body);
   std::ostringstream text;
   text.precision(4);
   if (!(size >= least_size && size <= most_size)) {
@@ -286,17 +296,14 @@ std::string sudden_stretches(const Situation& situation) {
   const Scene& scene = situation.scene;
   if (scene.quasi_static || situation.deck.start_from) return "";
   const double start = situation.start, duration = situation.duration;
-  double fastest = 0;
-  for (const MaterialBlock& block : scene.body.blocks) fastest = std::max(fastest, wave_speed(block.material));
-  Eigen::AlignedBox3d velocities;
-  for (const Trajectory& one : situation.trajectories) velocities.extend(one.velocities);
+  const double fastest = wave_speeds(scene.body).most;
+  const Eigen::AlignedBox3d velocities = velocities_of(situation.trajectories);
   std::ostringstream text;
   text.precision(4);
   for (const Period& period : scene.body.domain.periods) {
     const int axis = period.axis;
-    const auto change = [&](double part) {
-      return stretch_at({period}, start + part * duration)[axis] - stretch_at({period}, start)[axis];
-    };
+    const auto stretch = [&](double part) { return period.stretch.evaluate(0, 0, 0, start + part * duration); };
+    const auto change = [&](double part) { return stretch(part) - stretch(0); };
     double largest = 0;
     for (int k = 1; k <= 100; ++k) largest = std::max(largest, std::abs(change(0.01 * k)));
     const double rate = change(first_moment) / (first_moment * duration), speed = std::abs(rate) * period.length;

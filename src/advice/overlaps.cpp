@@ -24,8 +24,6 @@ struct Grain {
   std::int64_t body;
 };
 
-std::int64_t body_of(const Domain& domain, int i) { return domain.blocks[domain.cloud.blocks[i]].body; }
-
 // Collective. For each owned point the volume of its body within the horizon, itself included, bonded or not.
 std::vector<double> volumes_within_horizons(const Domain& domain) {
   std::vector<Vector> places;
@@ -35,7 +33,7 @@ std::vector<double> volumes_within_horizons(const Domain& domain) {
   for (int i = 0; i < domain.owned; ++i) {
     const Vector X = domain.reference(i);
     places.push_back(X);
-    grains.push_back({{X[0], X[1], X[2]}, domain.volume(i), body_of(domain, i)});
+    grains.push_back({{X[0], X[1], X[2]}, domain.volume(i), domain.body_of(i)});
     mine.extend(X);
     reach = std::max(reach, domain.horizon(i));
   }

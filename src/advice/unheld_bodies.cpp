@@ -135,7 +135,7 @@ void hold_by_images(const Domain& domain, Pieces& pieces) {
   if (!domain.periods.empty()) return hold_by_periods(domain, pieces);
   for (int i = 0; i < domain.owned; ++i) {
     for (const Mirror& mirror : domain.mirrors) {
-      if (mirror.body != domain.blocks[domain.cloud.blocks[i]].body) continue;
+      if (mirror.body != domain.body_of(i)) continue;
       const double distance = std::abs(mirror.distance(domain.reference(i)));
       if (2 * distance > domain.sites[i].horizon()) continue;
       pieces.all[pieces.of[i]].hold_by_image(domain.reference(i), mirror.normal);

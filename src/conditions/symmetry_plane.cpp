@@ -9,7 +9,7 @@ namespace strut {
 SymmetryPlane SymmetryPlane::on(std::vector<int> all, int place, const Body& body) const {
   const Domain& domain = body.domain;
   std::erase_if(all, [&](int i) {
-    const int of_point = domain.blocks[domain.cloud.blocks[i]].body;
+    const int of_point = domain.body_of(i);
     return std::any_of(domain.mirrors.begin(), domain.mirrors.end(), [&](const Mirror& mirror) {
       return mirror.number == place && mirror.body == of_point && !mirror.holds(domain.reference(i), domain.horizon(i));
     });

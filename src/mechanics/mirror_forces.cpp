@@ -42,7 +42,7 @@ std::vector<Vector> mirror_forces(const Body& body, int level, const std::vector
   const Domain& domain = body.domain;
   if (!domain.periods.empty()) return period_forces(body, level, moved);
   const auto points_of = [&](int number) {
-    return moving_points(body, moved, [&](int i) { return domain.blocks[domain.cloud.blocks[i]].body == number; });
+    return moving_points(body, moved, [&](int i) { return domain.body_of(i) == number; });
   };
   const auto on_body = [&](int number) {
     Vector sum = Vector::Zero();

@@ -66,7 +66,7 @@ void add_shares(const Domain& domain, const std::vector<Sample>& samples, std::s
   const CellGrid grid(places_of(samples), farthest);
   for (int j = 0; j < domain.owned; ++j) {
     const Vector X = domain.reference(j);
-    const int body = domain.blocks[domain.cloud.blocks[j]].body;
+    const int body = domain.body_of(j);
     grid.visit_near(X, [&](int s, const Vector& place) {
       const auto block = static_cast<std::size_t>(samples[s].block);
       const double r2 = (place - X).squaredNorm(), reach = reach_of(samples[s].spacing);

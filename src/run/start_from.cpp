@@ -137,7 +137,7 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   Body& body = scene.body;
   const bool may_expand =
       std::ranges::any_of(deck.materials, [](const auto& one) { return one.thermal_expansion != 0; });
-  if (may_expand && has_expanded(file_, body)) body.expansion.use(body.owned());
+  if (may_expand && body.expansion.empty() && has_expanded(file_, body)) body.expansion.use(body.owned());
   const contact::Kinematics kinematics{body.domain, body.velocity, body.density};
   const auto pass = [&](Archive archive, double& last_step) {
     archive.number("dt", last_step);

@@ -48,6 +48,7 @@ struct Domain {
   Vector current(int i) const { return sites[i].current.head<3>().matrix(); }      // y, m
   double volume(int i) const { return sites[i].volume(); }                         // m³
   double horizon(int i) const { return sites[i].horizon(); }                       // δ, m
+  int body_of(int i) const { return blocks[cloud.blocks[i]].body; }                // of an owned point
   std::int64_t id(int i) const { return i < owned ? cloud.ids[i] : ghost_ids[i - owned]; }
 };
 

@@ -29,8 +29,8 @@ Vector across(const Domain& domain, const Mirror& mirror, const MirroredForces& 
   return mirror.normal.dot(sums.of_images(mirror.body, images_behind(domain, mirror))) * mirror.normal;
 }
 
-// Of the planes of a body, those that have a parallel one get the force of their images, the others what is left of
-// the force on the body.
+// Adds up the forces of the planes of a body: a plane that has a parallel one gets the force of its images; the other
+// planes share the rest of the force on the body.
 void add(const Domain& domain, int body, const MirroredForces& sums, std::vector<Vector>& forces) {
   const std::vector<Mirror>& mirrors = domain.mirrors;
   Vector rest = sums.on_body(body);

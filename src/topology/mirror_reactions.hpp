@@ -11,9 +11,9 @@ namespace strut {
 
 // Sums over forces of one kind on this rank's points, N.
 struct MirroredForces {
-  std::function<Vector(int body)> on_body;  // of all forces
-  // Of the forces that images exert on a body; `behind` marks these images among the sites. It is asked for planes that
-  // have a parallel one only.
+  std::function<Vector(int body)> on_body;  // all forces on a body
+  // The forces that the images marked in `behind`, by site, exert on a body. Called only for planes that have a
+  // parallel one.
   std::function<Vector(int body, const std::vector<char>& behind)> of_images;
 };
 

@@ -8,8 +8,7 @@ namespace strut {
 std::vector<Mirror> planes_through(const Domain& domain, int i) {
   std::vector<Mirror> planes;
   std::ranges::copy_if(domain.mirrors, std::back_inserter(planes), [&](const Mirror& mirror) {
-    return mirror.body == domain.blocks[domain.cloud.blocks[i]].body &&
-           mirror.holds(domain.reference(i), domain.cloud.spacings[i]);
+    return mirror.body == domain.body_of(i) && mirror.holds(domain.reference(i), domain.cloud.spacings[i]);
   });
   return planes;
 }

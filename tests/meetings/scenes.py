@@ -600,10 +600,11 @@ class Draft:
                           for s, axis, kind in thrown for _, a, k in keys)
             thrown |= set() if overlap else keys
             return not overlap
-        if one["Type"] == "Prescribed Temperature":  # where several overlap, the last one of the deck counts
-            first = "heat" not in [taken for _, taken in held]
-            held.append((np.zeros(len(self.mesh.sites()), bool), "heat"))
-            return first
+        if one["Type"] == "Prescribed Temperature":  # one: where several overlap, the last one of the deck counts
+            key = ("all", "", one["Type"])
+            alone = key not in thrown
+            thrown.add(key)
+            return alone
         if one["Type"] not in (*MOTIONS, "Symmetry Plane", "Non-Reflecting End"):
             return True
         scene = Scene({"Node Sets": self.sets}, self.mesh, self.h, 0, 0, self.boxes)

@@ -108,8 +108,8 @@ void check_temperature(const Values& section, const Material& material, Problems
 void check_bond_energies(const std::vector<Block>& all, const std::vector<Material>& materials,
                          const std::vector<NamedDamageModel>& models, Problems& problems) {
   const auto by_energy = [&models](const Block& block) {
-    return block.damage_model && *block.damage_model < static_cast<int>(models.size()) &&
-           models[*block.damage_model].model.critical_bond_energy;
+    const DamageModel* model = damage_model_of(block, models);
+    return model && model->critical_bond_energy;
   };
   const auto may_break_so = [&](const Block& block) {
     if (block.separate_body) return by_energy(block);
@@ -138,9 +138,10 @@ void check_damage_model(const Values& section, const Material& material, const N
   }
   if (is_known && model.is_gradual &&
       (material.formulation != Formulation::quadratic || !materials::cracking(material.law, 1))) {
-    problems.add(section.path_to(damage_model),
-                 "material '" + material.name + "' cannot crack by model '" + named.name +
-                     "': expected the Material Model 'Elastic Correspondence' with Formulation 'Quadratic Correspondence'");
+    problems.add(
+        section.path_to(damage_model),
+        "material '" + material.name + "' cannot crack by model '" + named.name +
+            "': expected the Material Model 'Elastic Correspondence' with Formulation 'Quadratic Correspondence'");
   }
   if (std::holds_alternative<materials::ShockJ2>(material.law) && !model.ductility) {
     problems.add(section.path_to(damage_model),
@@ -167,6 +168,11 @@ std::optional<int> find_damage_model(const Values& section, const Material& mate
   const int found = find_named(section, damage_model, *section[damage_model], models, "Damage Models", problems);
   if (found < static_cast<int>(models.size())) check_damage_model(section, material, models[found], problems);
   return found;
+}
+
+const DamageModel* damage_model_of(const Block& block, const std::vector<NamedDamageModel>& models) {
+  const bool is_known = block.damage_model && *block.damage_model < static_cast<int>(models.size());
+  return is_known ? &models[*block.damage_model].model : nullptr;
 }
 
 std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& materials,

@@ -24,6 +24,9 @@ struct Block {
   std::optional<double> initial_temperature;  // K
 };
 
+// None where the block has none, or names one that the deck has not (an error of its own).
+const DamageModel* damage_model_of(const Block& block, const std::vector<NamedDamageModel>& models);
+
 Section blocks_section();
 std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& materials,
                                const std::vector<NamedDamageModel>& damage_models, Problems& problems);

@@ -32,7 +32,8 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
                      "friction is that of surfaces, rigid planes and tools");
   }
   for (const Block& block : blocks) {
-    if (!block.damage_model || (steps_follow && !damage_models[*block.damage_model].model.is_gradual)) continue;
+    const DamageModel* model = damage_model_of(block, damage_models);
+    if (!block.damage_model || (steps_follow && !(model && model->is_gradual))) continue;
     problems.add("Blocks > " + block.name + " > Damage Model",
                  "bonds cannot break with Solver > QuasiStatic; expected explicit steps (Verlet)");
   }

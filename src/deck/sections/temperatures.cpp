@@ -9,12 +9,10 @@ namespace {
 // Stretch and energy that a bond may hold are those of a cold one.
 void check_bonds(const HeatedSections& deck, Problems& problems) {
   for (const Block& block : deck.blocks) {
-    if (!block.damage_model || *block.damage_model >= static_cast<int>(deck.damage_models.size()) ||
-        block.material >= static_cast<int>(deck.materials.size()))
-      continue;
+    const DamageModel* model = damage_model_of(block, deck.damage_models);
+    if (!model || block.material >= static_cast<int>(deck.materials.size())) continue;
     const Material& material = deck.materials[block.material];
-    if (material.thermal_expansion == 0 || !deck.damage_models[*block.damage_model].model.critical_bond_energy)
-      continue;
+    if (material.thermal_expansion == 0 || !model->critical_bond_energy) continue;
     problems.add("Blocks > " + block.name + " > Damage Model",
                  "bonds of material '" + material.name +
                      "', which has a Thermal Expansion Coefficient, cannot break by 'Bond Energy'; expected 'Critical "

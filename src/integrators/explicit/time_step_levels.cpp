@@ -179,7 +179,7 @@ void even_out(const Body& body, std::vector<std::uint8_t> damped, FrequencyBound
   int bodies = 0;
   for (const BlockHorizons& block : body.domain.blocks) bodies = std::max(bodies, block.body + 1);
   std::vector<double> most(bodies, 0);
-  const auto of_body = [&](int i) -> double& { return most[body.domain.blocks[body.domain.cloud.blocks[i]].body]; };
+  const auto of_body = [&](int i) -> double& { return most[body.domain.body_of(i)]; };
   for (int i = 0; i < body.owned(); ++i) {
     if (reaching[i]) of_body(i) = std::max(of_body(i), bounds.values[i]);
   }

@@ -74,8 +74,7 @@ std::vector<double> thicknesses(const Body& body) {
   }
   std::vector<double> own(body.domain.sites.size(), 0.0);
   for_each_point(0, body.owned(), [&](int i) {
-    if (with_cells.contains(body.domain.blocks[body.domain.cloud.blocks[i]].body))
-      own[i] = thickness_of_family(body, i);
+    if (with_cells.contains(body.domain.body_of(i))) own[i] = thickness_of_family(body, i);
   });
   body.domain.halo.exchange(own);
   std::vector<double> largest(own.begin(), own.begin() + body.owned());

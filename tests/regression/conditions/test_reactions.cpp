@@ -11,9 +11,7 @@ constexpr double weight = 1e9 * 4e-3 * 4e-3 * 6e-3;  // N, of the block under a 
 const std::string pull = along("weight", "Body Force", "all", "z", "-1e9");
 
 // The history, of every step or every so many, of a run with these variables.
-Table history_of(Parts parts, const std::vector<std::string>& variables, const Lattice& lattice = {},
-                 int frequency = 1) {
-  const RunFolder folder(lattice);
+Table history_in(const RunFolder& folder, Parts parts, const std::vector<std::string>& variables, int frequency = 1) {
   std::string names;
   for (const std::string& name : variables) names += key(name, "true");
   parts.history = key("Filename", (folder / "history.csv").string()) + key("Frequency", std::to_string(frequency)) +
@@ -22,6 +20,11 @@ Table history_of(Parts parts, const std::vector<std::string>& variables, const L
   run(folder.write("deck.xml", parts.text()), folder.world);
   testing::internal::GetCapturedStdout();
   return read_history(folder / "history.csv");
+}
+
+Table history_of(const Parts& parts, const std::vector<std::string>& variables, const Lattice& lattice = {},
+                 int frequency = 1) {
+  return history_in(RunFolder(lattice), parts, variables, frequency);
 }
 
 // The impulse of means over the times between the rows.
@@ -145,8 +148,6 @@ TEST(Reaction, IsAMeanSinceTheRowBefore) {
   }
 }
 
-// Points of the crushed foot are subcycled, and the step shrinks with the deformation by some percent at a time. The
-// sum is that of 2000 steps of an impulse of 0.15 N s, some of which cancel.
 // Friction acts between points, with couples on their neighborhoods, which reach the images behind the planes.
 TEST(Reaction, OfSymmetryPlanesHasTheCouplesOfFriction) {
   const RunFolder folder;
@@ -159,13 +160,7 @@ TEST(Reaction, OfSymmetryPlanesHasTheCouplesOfFriction) {
                       plane("y", "Symmetry Plane", "front", "0 0 0", "0 1 0") +
                       plane("-y", "Symmetry Plane", "back", "0 4e-3 0", "0 -1 0");
   parts.times = key("Final Time", "3e-6");
-  parts.history =
-      key("Filename", (folder / "history.csv").string()) +
-      section("Variables", key("Reaction_Z(z)", "true") + key("Reaction_Y(y)", "true") + key("Reaction_Y(-y)", "true"));
-  testing::internal::CaptureStdout();
-  run(folder.write("deck.xml", parts.text()), folder.world);
-  testing::internal::GetCapturedStdout();
-  const Table table = read_history(folder / "history.csv");
+  const Table table = history_in(folder, parts, {"Reaction_Z(z)", "Reaction_Y(y)", "Reaction_Y(-y)"});
   const std::vector<double>& time = table.at("Time");
   const auto given = [&](const std::string& name) { return impulse(table.at(name), time, time.size() - 1); };
   const auto gained = [&](const std::string& name) { return table.at(name).back() - table.at(name).front(); };
@@ -176,6 +171,8 @@ TEST(Reaction, OfSymmetryPlanesHasTheCouplesOfFriction) {
   EXPECT_NEAR(given("Reaction_Y(y)") + given("Reaction_Y(-y)"), gained("Momentum_Y"), round_off);
 }
 
+// Points of the crushed foot are subcycled, and the step shrinks with the deformation by some percent at a time. The
+// sum is that of 2000 steps of an impulse of 0.15 N s, some of which cancel.
 class StoppedBar : public testing::TestWithParam<std::string> {};
 
 TEST_P(StoppedBar, HasTheImpulsesOfSubstepsInItsReaction) {

@@ -737,6 +737,9 @@ TEST(DeckOfPeridigm, GradualCracksAreThoseOfElasticQuadraticCells) {
   EXPECT_NE(folder.error(both).find("Blocks > all of it > Damage Model: bonds cannot break with Solver > QuasiStatic"),
             std::string::npos)
       << folder.error(both);
+  const std::string unknown = changed(both, "Damage Model: \"growing\"", "Damage Model: \"grown\"");
+  EXPECT_NE(folder.error(unknown).find("Blocks > all of it > Damage Model: 'grown'"), std::string::npos)
+      << folder.error(unknown);
 }
 
 }  // namespace

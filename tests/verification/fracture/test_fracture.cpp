@@ -547,8 +547,8 @@ class SlowCrack {
     const double passed = (beside[11] + beside[12] + beside[13] + beside[14]) / 4;
     return h * std::accumulate(beside.begin(), beside.end(), 0.0) / passed;
   }
-  // The same of a gradual crack by the stress that has fallen, on one side of the plane (-1 or 1): behind the tip there
-  // is none left.
+  // The length of a gradual crack on one side of the plane (-1 or 1), m: the sum of the softening of the points beside
+  // the plane, which is 1 behind the tip, where no stress is left.
   double softened_length(int side) const {
     const MaterialBlock& block = body_.blocks[0];
     double sum = 0;
