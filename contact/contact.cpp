@@ -12,19 +12,20 @@ namespace strut::contact {
 namespace {
 
 // The sum of both points' usual skin distances, in units of the smaller horizon. Points that are not bonded start at
-// least one horizon apart, and a pair touches at no more than 0.9 of its initial distance. With less than a tenth,
-// pairs of undeformed material are listed only for fast points; the rest of the tenth is the strain at which others are
-// listed.
+// least one horizon apart, and a pair touches at no more than 0.9 of its initial distance. Because the sum is below a
+// tenth, pairs of undeformed material are listed only for fast points, others when they are strained by the rest of it.
 constexpr double skin_share = 0.08;
 
 // A search is made this many steps before a skin distance is used up, because the motion of the next step is a
 // forecast, and points that touch in the step after it contribute to the stiffness, too.
 constexpr double forecast = 3;
 
-// A search is made only if a point has really used this fraction of its skin distance: the bound adds up vibration.
+// A search is made only if a point has really used this fraction of its skin distance: the bound `used` also counts
+// vibration.
 constexpr double most_used = 0.5;
 
-// Factor per step by which the stiffness bound falls after separation: a step that jumps with every touch costs energy.
+// Factor per step by which the stiffness bound falls after separation: a time step that jumps with every touch does not
+// conserve energy.
 constexpr double decay = 0.99;
 
 std::vector<int> points_of(const Domain& domain, int first, int second) {
@@ -76,8 +77,8 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   ++searches_;
 }
 
-// Collective. The bound grows with every vibration, so the distance that points have really moved is checked before a
-// search, which costs many times as much.
+// Collective. The bound `used` grows with every vibration, so the distance that points have really moved is computed
+// before a search, which costs many times as much.
 void Contact::check(const Kinematics& kinematics, double dt, ContactPair& contact_pair) {
   static Teuchos::Time& timer = phase("Contact search");
   const Timed timed(timer);
@@ -164,7 +165,8 @@ std::vector<Load> Contact::loads_of_all(const Domain& domain, const ContactPair&
   return loads;
 }
 
-// The same if any point touches several blocks, else empty. The stiffness bound then includes all springs of a point.
+// loads_of_all if any point touches several blocks, else empty. The stiffness bound then includes all springs of a
+// point.
 std::vector<Load> Contact::joined_loads(const Domain& domain, ContactPair& contact_pair) const {
   if (contact_pair.elsewhere.empty()) return {};
   std::vector<Load> loads = loads_of_all(domain, contact_pair);

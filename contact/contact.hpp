@@ -70,10 +70,10 @@ class Contact {
   double penetration() const { return penetration_; }
   DeepestPenetration deepest() const;
 
-  // True if two blocks have an interaction; one of surfaces; at the last forces, the force on this rank's points of
-  // block `first` by all points of `second`, with friction, N.
+  // True if two blocks have an interaction, or one by surfaces.
   bool between(int first, int second) const;
   bool by_surfaces(int first, int second) const;
+  // The last force by block `second` on this rank's points of block `first`, with friction, N.
   Vector force(const Domain& domain, int first, int second) const;
 
   // Work of the last friction forces on this rank's points, for an impulse over `impulse_time` (s) that changes the

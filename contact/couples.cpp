@@ -73,8 +73,8 @@ void Couples::add_forces(const Domain& domain, const std::vector<Neighborhood>& 
   }
 }
 
-// The couple of an image acts on points before the plane, and that of its original on images behind the plane, with
-// the same force along the normal: those of the images are a half.
+// The couple of an image acts on points before the plane, and the couple of its original on images behind the plane,
+// with the same force along the normal: the latter are summed twice.
 void Couples::add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const {
   if (forces_.empty() || domain.mirrors.empty()) return;
   const auto on_body = [&](int body) {

@@ -1,5 +1,5 @@
-// Friction between points acts midway between them, friction of surfaces at the surfaces: off the points, so it would
-// rotate bodies. Its couple acts on the neighborhood of the point, its family and itself (patch.hpp).
+// Friction acts off the points: midway between two points, or at the surfaces of bodies. Its couple about a point acts
+// on the neighborhood of the point (its family and itself, patch.hpp); without this couple bodies would rotate.
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ class Couples {
   };
   // Collective: exchanges the present motion of ghosts. `of` is valid for owned points afterwards.
   void bring_to_present(const Kinematics& kinematics);
-  Neighborhood of(const Kinematics& kinematics, int i, double arm) const;  // `arm`: as PatchSums has it
+  Neighborhood of(const Kinematics& kinematics, int i, double arm) const;  // `arm`: see PatchSums::patch, m
 
   // Collective. Adds the forces of the couples couples[k] (N m) on the neighborhoods of points[k]. Each point sums its
   // own, in the order of its family, so the result is the same on any number of ranks.
@@ -50,7 +50,7 @@ class Couples {
     Vector turn, middle;  // θ, and the position where the forces vanish
     static void reflect(const Reflection& by, Twist& twist) {
       reflect_place(by, twist.middle), reflect_direction(by, twist.turn);
-      twist.turn *= by.turn.determinant();  // of a mirror image it is the other way round
+      twist.turn *= by.turn.determinant();  // a mirror image rotates the other way
     }
   };
   // The force of the couple of point j on point i, per volume of i, N/m³.

@@ -12,11 +12,11 @@ namespace strut::contact {
 
 namespace {
 
-// Fraction of ρ at the nearest point of the other body. A body that presses on a face stays in front of its first layer
-// of points, where ρ falls by half within half a spacing.
+// A position is inside a body from this fraction of ρ at the body's nearest point on. A body that presses on a face
+// stays in front of its first layer of points, where ρ falls by half within half a spacing.
 constexpr double as_deep = 0.95;
-// Fraction of ρ half a spacing further in: it is reached 0.7 spacings behind a face of nodes, 0.1 in a sheet of one
-// cell.
+// The same with nodes, as a fraction of ρ half a spacing farther in: it is reached 0.7 spacings behind a face of nodes,
+// 0.1 in a sheet of one cell.
 constexpr double as_far_in = 0.9;
 
 using Place = Vector (Domain::*)(int) const;
@@ -54,8 +54,8 @@ class Material {
     for (const Seen& point : points) volumes_.push_back(point.volume);
   }
 
-  // True if a position is as deep in the material as the nearest of its points. Nodes are on the surface, as a body is
-  // that only touches it; with nodes, true if the volume fraction hardly grows half a spacing further in.
+  // True if a position is as deep in the material as the nearest of its points. Nodes lie on the surface, where a body
+  // that only touches it lies, too; with nodes, true if the volume fraction hardly grows within half a spacing inward.
   bool holds(const Vector& x) const {
     double nearest = spacing_ * spacing_;
     const Vector* point = nullptr;
@@ -88,7 +88,8 @@ class Material {
     around(x, [&](double volume, const Vector&, double r2) { sum += volume * smoothing_.value(r2); });
     return sum;
   }
-  // Half a spacing further in, to where there is more of it; anywhere within the body, where there is as much around.
+  // The position half a spacing along the gradient of the volume fraction; well inside the body the direction does not
+  // matter.
   Vector behind(const Vector& x) const {
     Vector inward = Vector::Zero();
     around(x, [&](double volume, const Vector& away, double r2) {

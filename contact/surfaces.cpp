@@ -86,7 +86,7 @@ void Surfaces::take(const BlockPair& blocks, Pairs& pairs) {
     slips[at] = slips_[at];
     overlaps[at] = overlaps_[at];
   }
-  slips_.swap(slips);  // a point without partners has none
+  slips_.swap(slips);  // points without partners lose theirs
   overlaps_.swap(overlaps);
   facing_.assign(pairs.sites.size(), {});
   note_touching();

@@ -12,7 +12,7 @@ namespace strut::contact {
 
 namespace {
 
-constexpr double near = 0.5;  // in smaller spacings
+constexpr double near = 0.5;  // times the smaller spacing of two points
 
 // Pairs of blocks without declared contact.
 class Uncovered {
@@ -41,7 +41,7 @@ struct Seen {
 
 Vector place_of(const Seen& point) { return Vector::Map(point.current); }
 
-// To where the material of a node is, Σ V (y_j − y_i) over its family; of no use, and zero, for middles of cells.
+// Vector from a node into its body, Σ V (y_j − y_i) over its family; zero for centers of cells, which need none.
 Vector inward_at(const Domain& domain, int i) {
   Vector sum = Vector::Zero();
   if (domain.cloud.at == PointsAt::elements) return sum;
@@ -78,14 +78,14 @@ bool is_behind(const Seen& point, const Seen& face) {
 bool has_passed(const Domain& domain, const Uncovered& uncovered, const Seen& a, const Seen& b) {
   const int one = static_cast<int>(a.block), other = static_cast<int>(b.block);
   if (!uncovered.has(one, other)) return false;
-  // Middles of cells that are so near are half a spacing behind each other's faces; nodes are on them.
+  // Centers of cells that are so near are half a spacing behind each other's faces; nodes are on the faces.
   if (domain.cloud.at == PointsAt::nodes && !(is_behind(b, a) && is_behind(a, b))) return false;
   const double first = (Vector::Map(a.reference) - Vector::Map(b.reference)).norm();
   return domain.blocks[one].body == domain.blocks[other].body ? first > a.horizon + b.horizon
                                                               : first > std::min(a.spacing, b.spacing);
 }
 
-// True if no two points can have come close that were two horizons, or in two bodies a spacing, apart.
+// True if no two points can have come close that started two horizons (in one body) or a spacing (in two) apart.
 bool hardly_moved(const Domain& domain) {
   Eigen::AlignedBox3d ways;
   double spacing = std::numeric_limits<double>::max();

@@ -58,7 +58,7 @@ struct Brittle {
   void set_crack(double to_strength, double to_width) { strength = to_strength, width = to_width; }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
-  // The integration points of a cell that softens then open alike, as a crack that is narrower than a cell does.
+  // A softening cell counts as flowed, so that its integration points open alike: the crack is narrower than the cell.
   bool has_flowed(const State& state) const { return state.damage > 0; }
 
  private:

@@ -65,8 +65,7 @@ struct DeshpandeFleck {
   }
 
   Moduli moduli() const { return initial; }
-  // Between those of the foam and those of the solid, in proportion to the plastic compaction over its full value; zero
-  // for a failed point.
+  // From `initial` to `compacted` in proportion to the plastic compaction; zero for a failed point.
   Moduli moduli(const State& state) const {
     if (state.failed > 0) return {};
     const double share = compaction(state);
@@ -93,7 +92,7 @@ struct DeshpandeFleck {
     double mean, mises;  // σ_m, σ_e, Pa
   };
 
-  // Beyond this a double strain does not resolve Y to nine digits: the point is solid.
+  // Fraction of ε_D above which a strain in double precision does not resolve Y to nine digits: the point is solid.
   static constexpr double solid = 1 - 1e-8;
 
   double form() const { return 1 + alpha * alpha / 9; }
@@ -110,7 +109,7 @@ struct DeshpandeFleck {
   struct Hardening {
     double stress, slope;  // Y, dY/dε̂; Pa
   };
-  // Without the solid's infinity: the bracket of the solution ends there.
+  // Infinite from `solid` ε_D on, where the bracket of solve() ends.
   Hardening hardening(double strain) const {
     if (!(densification < never)) return {plateau, 0};
     const double e = strain / densification;
@@ -132,7 +131,7 @@ struct DeshpandeFleck {
   static constexpr double tolerance = 1e-13;
   static constexpr int most_iterations = 200;  // bisection alone needs 60
 
-  // The trial's σ̂ after the return with Δε̂/Y, minus Y: positive at the left end of the bracket, negative at the right
+  // The residual is σ̂ after the return less Y: positive at the left end of the bracket, negative at the right.
   Flow solve(const Invariants& trial, double equivalent, double strain, const Moduli& now) const {
     const double f = form(), per_mean = now.bulk * alpha * alpha / f, per_mises = 3 * now.shear / f;
     // The least stress per strain in any direction of flow, Pa; without the mean part if there is no volumetric flow.

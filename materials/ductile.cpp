@@ -8,7 +8,8 @@
 namespace strut::materials {
 
 // x at the end of a step, from x' at its start: G_c/L (x² − x'²) = x · (flow of the effective stress) + W (x − x'), W
-// the elastic energy of the reduced stress. 0 below x = W L/(2 G_c), where x releases more than it dissipates.
+// the elastic energy of the effective stress that damage reduces (falling). Below x = W L/(2 G_c) softening would
+// release more energy than it dissipates: the result is 0. `flowed`, `elastic` (W): J/m³.
 template <class Metal>
 double DuctileOf<Metal>::reduced(double x, double flowed, double elastic) const {
   const double whole = ductility.fracture_energy / length;

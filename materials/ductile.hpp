@@ -4,8 +4,8 @@
 //   G_c/L d(1 − x²) = dissipation per volume from then on     (G_c over a length: Hillerborg, Modéer & Petersson 1976)
 // With perfect plasticity the stress decreases linearly with the plastic strain. For any hardening and loading, the
 // metal has dissipated G_c/L when x = 0, or more if its elastic energy W exceeds that: from x = W L/(2 G_c) on W is
-// enough. Then it has failed, and carries no stress. In compression it closes at once. Method: J2's step on the
-// effective stress, then a quadratic equation for x. Units: Pa, 1/s, s.
+// enough. Then it has failed, and carries no stress; until then damage does not reduce a pressure. Method: J2's step on
+// the effective stress, then a quadratic equation for x. Units: Pa, 1/s, s.
 #pragma once
 
 #include <algorithm>

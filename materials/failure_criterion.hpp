@@ -22,8 +22,8 @@ struct FailureStrain {
   }
 };
 
-// D = ∫ dε̄/ε_f,  ε_f = (D1 + D2 exp(D3 σ*)) (1 + D4 ln max(ε̇/ε̇₀, 1)) (1 + D5 T*),  T* = (T − T_r)/(T_m − T_r)
-//     (Johnson & Cook 1985), σ* = mean/von Mises stress, limited to ±1.5; metals fail far above −1.5.
+// D = ∫ dε̄/ε_f,  ε_f = (D1 + D2 exp(D3 σ*)) (1 + D4 ln max(ε̇/ε̇₀, 1)) (1 + D5 T*),  T* = (T − T_r)/(T_m − T_r) ≥ 0
+//     (Johnson & Cook 1985), σ* = mean/von Mises stress, limited to ±1.5; no metal fails near −1.5.
 struct JohnsonCookFailure {
   double constants[5] = {1, 0, 0, 0, 0};        // D1 … D5
   double reference_rate = 1;                    // ε̇₀, 1/s

@@ -161,7 +161,7 @@ struct JohnsonCookRate {
   }
 };
 
-// r = max(ε̇/ε̇₀, 1)^M     (Needleman & Tvergaard 1984, who let it fall below 1 with the rate)
+// r = max(ε̇/ε̇₀, 1)^M     (Needleman & Tvergaard 1984, without the lower limit 1)
 struct NeedlemanRate {
   double reference_rate = 1, exponent = 0;  // ε̇₀ 1/s, M
   template <class T>

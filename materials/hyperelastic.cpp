@@ -23,7 +23,7 @@ Instant instant(const Hyperelastic& law, const Vector& stretches, double J) {
     const Vector logarithms = exponent * (stretches.array().log() - std::log(J) / 3);
     const Vector powers = logarithms.array().exp();
     const double mean = powers.sum() / 3;
-    // The sum of the logarithms is 0: without them the energy of small strains would cancel.
+    // The logarithms x sum to 0; subtracting each avoids cancellation at small strains.
     for (const double x : logarithms) found.energy += modulus / exponent * (std::expm1(x) - x);
     found.deviator += modulus * (powers - Vector::Constant(mean));
     found.stiffness += modulus * exponent / 3 * (powers + Vector::Constant(mean));
@@ -33,8 +33,8 @@ Instant instant(const Hyperelastic& law, const Vector& stretches, double J) {
 
 Symmetric congruent(const Tensor& A, const Symmetric& s) { return symmetric_part(A * to_tensor(s) * A); }
 
-// The branches moved on by a step: the deviator that they carry, Kirchhoff, Pa, and what their dampers take, J/m³, as
-// of springs of the modulus γ_k G.
+// The branches after a step: the sum of their deviators (Kirchhoff stress, Pa), and the work of their dampers (J/m³),
+// each beside a spring of modulus γ_k G.
 struct Branches {
   Symmetric carried = Symmetric::Zero();
   double damped = 0;
@@ -84,7 +84,7 @@ PointStress Hyperelastic::step(const PointStep& step, const Symmetric& stress, S
     next.dissipated = state.dissipated + branches.damped;
     next.stored = state.stored + step_work(step, old_determinant(step), stress, cauchy) - branches.damped;
   }
-  // ∂σ_i/∂ln λ_i: that of the deviator, less the stress itself, which J divides, and that of the pressure.
+  // ∂σ_i/∂ln λ_i of dev τ/J, where the second term stems from 1/J, and of the pressure.
   const Vector along = (now.stiffness - now.deviator) / step.J + Vector::Constant(bulk * step.J);
   next.stiffening = std::max(0.0, along.maxCoeff() / moduli().longitudinal() - 1);
   if (!std::isfinite(cauchy.sum() + next.stored + next.dissipated + next.stiffening)) return {stress, false};

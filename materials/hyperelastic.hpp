@@ -3,7 +3,7 @@
 // of which neo-Hooke (α = 2) and Mooney & Rivlin (α = 2, −2) are cases; and relaxation of the deviator by a Prony
 // series (Simo 1987; Simo & Hughes, Computational Inelasticity, 10.3): S̃ = J^(2/3) U⁻¹ dev τ U⁻¹, and
 //   dev τ = γ_∞ dev τ₀ + Σ_k γ_k dev(J^(−2/3) U h_k U),   h_k ← e^(−Δt/t_k) h_k + e^(−Δt/2t_k) ΔS̃₀,   γ_∞ = 1 − Σ γ_k.
-// A law of the second form: it reads U, in whose frame nothing turns. The moduli are those of fast loading.
+// A law of the second form (law.hpp): it reads U, in the unrotated frame. The moduli are those of fast loading.
 // Units: Pa, s.
 #pragma once
 

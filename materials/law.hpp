@@ -6,7 +6,7 @@
 //   step              takes a step of length dt (s), the old unrotated Cauchy stress (Pa) and its own State, which it
 //                     updates; returns the new unrotated Cauchy stress. A law of the first form uses the unrotated
 //                     rate of deformation d = Rᵀ D R, one of the second form the stretch at the end. A step is inline,
-//                     so that unused inputs are not computed, unless it costs many times a call.
+//                     so that unused inputs are not computed, unless it costs far more than a call.
 //   State             a struct of doubles only; State{} is the state of an undeformed point.
 //   state_names       the names of the members of State in their order, as in output.
 //   virgin_state      optional: the state of an undeformed point for output, if it is not State{}.
@@ -16,9 +16,8 @@
 //   dissipation       J per m³ of reference volume: both feed the energy ledger of a run.
 //   equivalent_stress the stress that is compared with the flow stress, Pa.
 //   flow_stress       the equivalent stress at which the point yields, Pa; infinity if it never yields.
-//   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever flowed or
-//                     softened.
-//                     If several integration points follow one motion, they then share their change of volume
+//   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever
+//                     flowed or softened. The integration points of its cell then share their change of volume
 //                     (volumetric locking: src/mechanics/formulation/quadratic.md).
 //   part_left         optional, for laws that soften as they fail: fraction of stress that a point still carries, 1 to
 //                     0, with the state as an argument. It also scales the stabilization.
@@ -29,7 +28,7 @@
 //   stored_energy     optional, for laws that count it: elastic energy, J per m³ of reference volume.
 //   heat              optional, for laws with a temperature: ρ c_p (T − T₀), J per m³ of reference volume.
 //   set_initial_temperature  optional, with heat: K.
-//   why_no_stress     optional: what a user is told where a step has not converged.
+//   why_no_stress     optional: a message for users, why a step has not converged.
 //   shows             optional: false for the index of a state variable that output does not have.
 //   StateOf<T>        optional, SIMD: a law may process several points at once, one per lane. Its step and StateOf<T>
 //                     are then templates over the scalar, double or RawLanes, State is StateOf<double>. All lanes are

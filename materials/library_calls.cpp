@@ -18,11 +18,11 @@ namespace {
 struct Call {
   const char* file = nullptr;  // of the library that this thread is in
   const Points* points = nullptr;
-  int point = -1;  // the one that the library has; -1: all
+  int point = -1;  // index of the one that the library computes; -1: all
 };
 thread_local Call call;
 
-// ---- What a handler of signals may do: no memory is asked for -------------------------------------------------------
+// ---- For signal handlers: nothing here allocates memory -------------------------------------------------------------
 
 void tell(const char* text) {
   if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
@@ -55,7 +55,7 @@ void tell_fault(const char* what) {
 }
 
 constexpr std::array signals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
-std::array<struct sigaction, signals.size()> before;  // how the process took them
+std::array<struct sigaction, signals.size()> before;  // the handlers before watch()
 
 void on_crash(int signal) {
   if (call.file) tell_fault(" of a User Library material crashed");
@@ -67,21 +67,21 @@ void on_crash(int signal) {
 
 // ---------------------------------------------------------------------------------------------------------------------
 
-// STOP of Fortran has the status 0, by which nobody sees that the run has failed.
+// Fortran's STOP exits with status 0, which would hide that the run has failed.
 void on_exit() {
   if (!call.file) return;
   std::cout.flush();
   tell_fault(" of a User Library material ended the program (STOP, XIT, exit)");
   call.file = nullptr;
-  std::exit(EXIT_FAILURE);  // in glibc the handlers that are left go on, with this status
+  std::exit(EXIT_FAILURE);  // glibc runs the remaining exit handlers and exits with this status
 }
 
-// A library may crash because its thread has no stack left, and a handler needs some.
+// Stack of this thread for signal handlers: a library may crash because it has used up the thread's own stack.
 struct SecondStack {
   SecondStack() {
     stack_t other{};
     sigaltstack(nullptr, &other);
-    if (!(other.ss_flags & SS_DISABLE)) return;  // somebody else's
+    if (!(other.ss_flags & SS_DISABLE)) return;  // the thread has one already
     room = std::make_unique<char[]>(size);
     const stack_t mine{.ss_sp = room.get(), .ss_flags = 0, .ss_size = size};
     sigaltstack(&mine, nullptr);

@@ -1,4 +1,4 @@
-// A fault within a library that a law calls is told as that library's: its file, and the points that it was called for.
+// If a user library crashes or ends the program, a message names the library's file and the points it was called for.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace strut::materials {
 
-// While it lives, this thread calls a law for these points; X, three numbers each, in m. Other laws do without.
+// Scope in which this thread calls law L for the points added by their X (three numbers, m). Empty except for UserLaw.
 template <class L>
 class PointsOfCall {
  public:
@@ -15,7 +15,7 @@ class PointsOfCall {
 
 namespace library_calls {
 
-// From the first call on, crashes and exits of the process are watched.
+// Installs the handlers of crashes and of exits, once per process.
 void watch();
 
 struct Points {
@@ -24,7 +24,7 @@ struct Points {
 };
 void stand_at(const Points* points);  // the points of this thread's calls; nullptr: none
 
-// While it lives, this thread is in the library.
+// Scope in which this thread runs code of the library; `file` must outlive it.
 class Inside {
  public:
   explicit Inside(const std::string& file);
@@ -32,7 +32,7 @@ class Inside {
   Inside(const Inside&) = delete;
   Inside& operator=(const Inside&) = delete;
 
-  void takes(int point);  // the library has only this one of the points of the call
+  void takes(int point);  // the library now computes this point of the call alone
 };
 
 }  // namespace library_calls

@@ -1,6 +1,6 @@
-// The stretch of a point jumps without motion, for instance because bonds break and the rest has another stretch: its
-// stress stays, and the next step continues from there. A law of the first form uses rates only; a law of the second
-// form with a history needs a function here, because its stress would follow the stretch.
+// Keeps the stress of a point whose stretch jumps without motion, for instance because some of its bonds broke; the
+// next step continues from that stress. A law of the first form uses rates only; a law of the second form with a
+// history needs a function here, because its stress would follow the stretch.
 #pragma once
 
 #include "materials/polymer_foam.hpp"

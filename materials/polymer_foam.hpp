@@ -123,7 +123,7 @@ struct PolymerFoam {
 
   static Tensor inverse_plastic(const State& state);
 
-  // NaN if there is none.
+  // NaN if b_e is not finite or not positive definite.
   Trial trial(const PointStep& step, const State& state) const;
 
   // ---- The return ---------------------------------------------------------------------------------------------------
@@ -143,7 +143,7 @@ struct PolymerFoam {
 
   Return place(const Trial& trial, double compaction, double z) const;
 
-  // The yield function times α⁻² and (p_c + p_t) α⁻¹, a polynomial without roots of possibly negative numbers.
+  // The yield function of the header over α²: a polynomial, defined also where α is not real.
   struct Excess {
     double value, size;                 // Pa²; the sum of the magnitudes of its terms
     double by_deviatoric;               // by z

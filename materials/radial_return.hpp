@@ -38,8 +38,8 @@ class RadialReturn {
     const auto bound = flow_.lower_bound();
     if (!any(!(q2 <= bound * bound))) return elastic(trial, state);
     const Rest at_rest = flow_.at_rest(state.equivalent_plastic_strain);
-    // Not below the bound or the curve, although round-off may put one above the other. Also for NaN, for which no
-    // comparison is true.
+    // Flow needs a stress above both the bound and the curve, which round-off may swap. NaN counts as flow: solve()
+    // then reports that it has not converged.
     const MaskOf<T> flows = !(q2 <= bound * bound) && !(q2 <= at_rest.value * at_rest.value);
     if (!any(flows)) return elastic(trial, state);
     const T q = sqrt(q2);
@@ -113,8 +113,8 @@ class RadialReturn {
     return result;
   }
 
-  // Flow went on: the flow stress linearized about the last step, σ̄(ε̄, ε̇_old) + ∂σ̄/∂ε̄ Δε̄ + ∂σ̄/∂ε̇ (Δε̄/dt − ε̇_old).
-  // It follows a change of the rate at once, where the last rate itself as a guess would lag behind.
+  // If the last step flowed, too: the flow stress linearized about it, σ̄(ε̄, ε̇_old) + ∂σ̄/∂ε̄ Δε̄ + ∂σ̄/∂ε̇ (Δε̄/dt −
+  // ε̇_old). This guess follows a change of the rate at once; the last rate would lag behind.
   T warm_guess(const T& q, const Rest& at_rest, const PlasticState<T>& state, const T& dt) const {
     const T& rate = state.plastic_strain_rate;
     if (!any(rate > 0)) return T{};
@@ -123,9 +123,9 @@ class RadialReturn {
     return rate > 0 ? guess : T{};
   }
 
-  // Flow begins: the lesser of two upper bounds (if the law does not soften), what flows if the stress falls to the
-  // flow stress at rest and if it does not fall at all. From this side of the root a Newton step on a concave flow
-  // stress does not leave the bracket.
+  // If the last step was elastic: the lesser of two upper bounds of Δε̄ (if the law does not soften): the flow that
+  // lowers the stress to the flow stress at rest, and the flow at constant stress. From this side of the root a Newton
+  // step on a concave flow stress does not leave the bracket.
   T cold_guess(const T& q, const Rest& at_rest, const T& dt) const {
     const T to_rest = (q - at_rest.value) / (3 * shear_), all = flow_.rate_at(q, at_rest) * dt;
     return all < to_rest ? all : to_rest;

@@ -10,7 +10,7 @@ ShockJ2::State ShockJ2::virgin_state() const {
   return state;
 }
 
-// ρ c² at constant entropy is v (γ p − dp_c/dv); in tension at least a tenth of the value at rest.
+// ρ c² at constant entropy is v (γ p − dp_c/dv); the lower limit, a tenth of the value at rest, is for tension.
 Moduli ShockJ2::moduli(const State& state) const {
   const auto bulk_of = [&state](const auto& law) {
     const Curve<double> cold = law.cold(state.volume);

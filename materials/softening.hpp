@@ -1,4 +1,4 @@
-// What laws share whose stress falls with damage: their deviator and tension are reduced, pressure is kept.
+// Shared by laws with damage, which reduces the deviator and the tension of the stress and keeps the pressure.
 #pragma once
 
 #include "materials/law.hpp"
@@ -11,10 +11,10 @@ inline Symmetric scaled(const Symmetric& stress, double x) {
   return x * deviator(stress) + spherical(mean > 0 ? x * mean : mean);
 }
 
-// The part of a stress that falls.
+// The part of a stress that damage reduces.
 inline Symmetric falling(const Symmetric& stress) { return trace(stress) > 0 ? stress : Symmetric(deviator(stress)); }
 
-// Lane l of a step by `soften`, a step of one point.
+// Computes lane l of a step by `soften`, which steps one point.
 template <class State, class Lanes, class Soften>
 void soften_lane_by(const Soften& soften, int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
                     const Lanes& state, Lanes& next, StressOf<RawLanes>& result) {

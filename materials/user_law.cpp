@@ -24,9 +24,9 @@ constexpr const char* gave_up = "found no stress (PNEWDT below 1, or `failed`)";
 constexpr const char* no_number =
     "gave a stress, a state variable or an energy that is no number; does it have all its Constants?";
 constexpr const char* wrote_beyond = "changed a state variable beyond its State Variables";
-std::atomic<const char*> complaint = gave_up;  // the last one
+std::atomic<const char*> complaint = gave_up;  // of the last step without a stress, on any thread
 
-constexpr int none_behind = 32;
+constexpr int none_behind = 32;  // NaNs behind the constants
 int count_of(const std::vector<double>& constants) { return static_cast<int>(constants.size()) - none_behind; }
 
 constexpr int most_points = 8, most = UserLaw::most_states;
@@ -61,12 +61,12 @@ std::array<char, name_length> fortran_text(const std::string& name) {
   return text;
 }
 
-// The arguments of both user subroutines of Abaqus that all points share. They take one point at a time: in substeps,
-// points have steps of their own.
+// The arguments of UMAT and VUMAT that all points share. Both get one point at a time, since points in substeps have
+// steps of their own.
 struct Fixed {
   explicit Fixed(const UserLaw& law)
       : cmname(fortran_text(law.name)),
-        props(const_cast<double*>(law.constants.data())),  // Fortran knows no constants
+        props(const_cast<double*>(law.constants.data())),  // Fortran has no const
         nprops(count_of(law.constants)),
         nstatv(law.states),
         copied(std::min(law.states + 1, most)) {}
@@ -74,7 +74,7 @@ struct Fixed {
   std::array<char, name_length> cmname;
   double* props;
   int ndir = 3, nshr = 3, nprops, nstatv;
-  int copied;  // state variables: one more than the library has, so that a trial finds one that changes it (tried)
+  int copied;  // state variables: one more than the library has, so that tried() finds a library that changes it
 };
 
 void call_umat(const UserLaw& law, const strut_step& s, Inside& here) {

@@ -35,7 +35,7 @@ struct UserLaw {
   double bulk = 0, shear = 0;     // Pa
   double density = 0;             // kg/m³, undeformed
   std::string name;               // of the material: CMNAME
-  std::vector<double> constants;  // PROPS, and behind them numbers that are none, so that a law that reads more fails
+  std::vector<double> constants;  // PROPS, then NaNs (with_none_behind), so that a law that reads too many fails
   int states = 1;                 // number of state variables of the library, STATEV
   LibraryFunction function;
   bool tells_energy = false;  // the library counts its energies; else they follow from the elastic constants
@@ -108,12 +108,12 @@ struct UserLaw {
   }
   double stored_energy(const State& state) const { return state.stored; }
   double dissipation(const State& state) const { return state.dissipated; }
-  // Where it has, integration points of quadratic cells share their change of volume: flow is taken for that of metals,
-  // which keeps the volume. Flow by a strain of some 1e-10 is round-off of a law that balances its energies.
+  // Flow is assumed to keep the volume, as in metals: integration points of a quadratic cell then share their change of
+  // volume. Flow by a strain of some 1e-10 is round-off of a law that balances its energies.
   bool has_flowed(const State& state) const { return tells_energy && state.dissipated > 1e-12 * bulk; }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
-  std::string why_no_stress() const;  // the last time that a library gave none
+  std::string why_no_stress() const;  // for the last step without a stress
 
   static std::vector<double> with_none_behind(std::vector<double> constants);
 

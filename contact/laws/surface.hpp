@@ -1,9 +1,9 @@
-// Contact between surfaces. It starts from a smoothed volume fraction of the other body,
+// Contact between surfaces. It is defined by a smoothed volume fraction of the other body,
 //   ρ(x) = Σ V_j W(|y_j − x|),  W(r) = 45045/(4096 π R³) (1 − r²/R²)⁶ with the integral 1,
 // which goes from 0 to 1 across a flat face and hardly shows the lattice; V_j is corrected so that it does so across a
-// curved face, too (contact/own_surface.hpp). A point touches if ρ exceeds its value before a flat face at the distance
-// e, the depth of the point below the surface of its own body. The overlap g is that excess divided by the slope of ρ,
-// and the pressure
+// curved face, too (contact/own_surface.hpp). A point touches if ρ exceeds the value that it has at the distance e from
+// a flat face, e the depth of the point below the surface of its own body. The overlap g is that excess divided by the
+// slope of ρ, and the pressure
 //   p(g) = K g, or K g/(1 − g/g_l) with a largest overlap g_l,
 // is the derivative of an energy per area, so that forces derive from it, too (contact/surfaces.hpp).
 #pragma once

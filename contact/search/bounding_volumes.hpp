@@ -1,5 +1,5 @@
-// Bounding volumes of cells and clusters of points. They rule out that any of their points touch, for as many volumes
-// at a time as a register has lanes (clusters.hpp).
+// Bounding volumes of cells and clusters of points. A test of two volumes rules out contact of all their points, for as
+// many volumes at a time as a register has lanes (clusters.hpp).
 #pragma once
 
 #include <algorithm>

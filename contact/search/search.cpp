@@ -86,7 +86,7 @@ std::vector<Candidate> images_of(std::span<const Candidate> candidates, const Do
   return all;
 }
 
-// Collective. Throws Error if points are so far from each other that images a period away are not all that are near.
+// Collective. Throws Error if points are so far apart that images more than one period away may be near.
 void check_extent(const Domain& domain, const std::vector<Vector>& places, double reach) {
   const Vector extent = common_box(box_around(places), domain.communicator).sizes();
   for (const Period& period : domain.periods) {
@@ -133,8 +133,7 @@ struct Lists {
   auto of(std::size_t k) const { return std::span(members).subspan(start[k], start[k + 1] - start[k]); }
 };
 
-// Lists for `count` candidates, filled in the order of for_each(visit), which calls visit(k, member of its
-// list).
+// Lists for `count` candidates, filled in the order in which for_each(visit) calls visit(k, member of list k).
 template <class ForEach>
 Lists lists_from(std::size_t count, const ForEach& for_each) {
   Lists lists{std::vector<std::size_t>(count + 1, 0), {}};
