@@ -42,8 +42,8 @@ concept ContactLaw = std::copyable<L> && requires(const L& law, const PointPair&
 
 // The force of Coulomb friction on the first of two touching points, N. It acts along the tangential velocity of the
 // second relative to the first (m/s), with μ times the normal force (N), or with the force that stops this velocity
-// within dt (s) if that is less. `normal`: of the touching surfaces, unit length, either sign. `mobility`: change of the
-// relative velocity per unit of impulse between the two, 1/kg; with n contacts on each point, n₁/m₁ + n₂/m₂.
+// within dt (s) if that is less. `normal`: of the touching surfaces, unit length, either sign. `mobility`: change of
+// the relative velocity per unit of impulse between the two, 1/kg; with n contacts on each point, n₁/m₁ + n₂/m₂.
 inline Vector friction_force(double coefficient, double normal_force, const Vector& relative_velocity,
                              const Vector& normal, double mobility, double dt) {
   const Vector sliding = relative_velocity - relative_velocity.dot(normal) * normal;

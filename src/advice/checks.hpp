@@ -30,8 +30,7 @@ std::string without_effect(const Situation& situation);
 
 // ---- doubled_numbers.cpp
 
-// A warning with the least number that more than one point has, and how many are such; "" where there is
-// none.
+// A warning with the lowest number that several points share, and how many points repeat a number; "" if none does.
 std::string doubled_numbers(const Situation& situation);
 
 // ---- outline.cpp
@@ -86,8 +85,8 @@ std::string improbable_stretches(const Situation& situation);
 
 // ---- resolution.cpp
 
-// A line for each block whose members are so thin that they lose a tenth of their bending stiffness, that
-// ordinary points have an error of a tenth in tension, or quadratic correspondence possibly one of a twentieth.
+// A line for each block whose members are so thin that correspondence loses a tenth of their bending stiffness,
+// ordinary points have an error of a tenth in tension, or quadratic correspondence may have one of a twentieth.
 std::string thin_members(const Situation& situation);
 
 // The warnings of blocks with points whose families nearly lie in a plane.

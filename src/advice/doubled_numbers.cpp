@@ -12,7 +12,7 @@ namespace strut {
 
 namespace {
 
-// The numbers of all points, each with its like on one rank, sorted.
+// The numbers of all points, distributed so that equal numbers are on one rank, and sorted there.
 std::vector<std::int64_t> dealt_by_number(const Domain& domain) {
   const Communicator& ranks = domain.communicator;
   const auto rank_of = [&ranks](std::int64_t number) {

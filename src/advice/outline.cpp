@@ -178,7 +178,7 @@ const materials::JohnsonCookFailure* failure_of(const materials::AnyLaw& law) {
       law);
 }
 
-// T* of softening and that of failure are of one metal.
+// A warning if the temperatures of T* differ between softening and failure, which describe one metal.
 std::string two_temperature_scales(const MaterialBlock& block, const materials::ThermalJ2& metal) {
   constexpr double differs = 0.05;
   const materials::JohnsonCookFailure* failure = failure_of(block.material.law);
@@ -291,7 +291,7 @@ std::string large_elastic_strains(const Situation& situation) {
 }
 
 std::string sudden_stretches(const Situation& situation) {
-  // Strain of the first waves over the largest one of the run, from which it is told.
+  // Least strain of the first waves, relative to the largest strain of the run, that is worth a warning.
   constexpr double hardly_seen = 0.01;
   const Scene& scene = situation.scene;
   if (scene.quasi_static || situation.deck.start_from) return "";

@@ -37,7 +37,7 @@ struct Piece {
     for (const double count : of_block) sum += count;
     return sum;
   }
-  // Holds the rotation of a line of points, or of a single one, around itself. On one rank only: holds are summed.
+  // Holds the rotations that move no point, of a line of points or of a single one. On one rank only: holds are summed.
   void hold_what_moves_nothing(bool on_this_rank) {
     const Eigen::SelfAdjointEigenSolver<Tensor> turning(moments);
     radius = std::sqrt(std::max(0.5 * moments.trace() / points(), std::numeric_limits<double>::min()));
@@ -118,7 +118,7 @@ Pieces pieces_of(const Domain& domain) {
   return pieces;
 }
 
-// A body that is bonded to its image one period away cannot turn this way from that: only around the axis.
+// A body that is bonded to its image one period away can rotate only around the axis of the period.
 void hold_by_periods(const Domain& domain, Pieces& pieces) {
   std::vector<Vector> periods(domain.sites.size(), Vector::Zero());  // of images
   for (const ImagePoint& image : domain.halo.images()) periods[image.ghost] = image.by.period;

@@ -115,7 +115,7 @@ std::string gap(const contact::Law& law, const Side& a, const Side& b) {
 
 std::string of_blocks(const Side& a, const Side& b) { return "contact of blocks " + a.name + " and " + b.name; }
 
-// Points of another body that are farther than a few spacings push as well, as if they touched.
+// A warning if the contact radius is so large that bodies push each other over a gap of several spacings.
 std::string far_reach(const contact::Law& law, const Side& a, const Side& b) {
   constexpr double far = 3;
   const double spacing = std::max(a.spacing, b.spacing), radius = contact::radius_of(law);
@@ -166,7 +166,8 @@ double relative_stiffness(const contact::PairLaw& law, const Side& a, const Side
   return spring / std::max(a.modulus * a.spacing, b.modulus * b.spacing);
 }
 
-// The first step of a touch is as long as those before it: (ω Δt)²/4 of the energy, ω of the contact.
+// A warning if surfaces are so stiff that a first touch, whose step is as long as those before it, changes the energy:
+// by the fraction (ω Δt)²/4, ω of the contact.
 std::string stiffness_of_first_touches(const contact::SurfaceLaw& law, const Side& a, const Side& b) {
   constexpr double much = 1;
   if (law.factor < much) return "";
@@ -179,7 +180,8 @@ std::string stiffness_of_first_touches(const contact::SurfaceLaw& law, const Sid
   return text.str();
 }
 
-// If points vibrate at the frequency of contact instead of the bodies', a touch lasts only a step or two.
+// A warning if contact is so stiff that points vibrate at its frequency instead of the bodies': a touch then lasts only
+// a step or two.
 std::string stiffness_of_short_touches(const contact::Law& law, const Side& a, const Side& b) {
   constexpr double much = 10;
   if (const auto* of_surfaces = std::get_if<contact::SurfaceLaw>(&law))

@@ -1,4 +1,4 @@
-// Rigid tools where they must not be: between points that are bonded to each other, and in another tool.
+// Finds rigid tools that are between points bonded to each other, or that overlap another tool.
 #pragma once
 
 #include <optional>

@@ -88,7 +88,7 @@ constexpr std::array of_the_body = {"Discretization > Points",
                                     "Blocks"};
 
 bool is_of_the_body(const std::string& path, const Texts& other) {
-  if (path.ends_with(" > Damage Model")) return other.contains(path);  // whole bonds may break from now on
+  if (path.ends_with(" > Damage Model")) return other.contains(path);  // one may be added: no bond has broken yet
   return std::any_of(of_the_body.begin(), of_the_body.end(), [&](const char* one) { return is_within(path, one); });
 }
 

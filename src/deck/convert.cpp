@@ -23,7 +23,7 @@ bool is_array_of_numbers(const std::string& type) {
   return type == "Array(int)" || type == "Array(double)" || type == "Array(float)";
 }
 
-// True if the value has the type that the deck itself gives.
+// True if the value is of the type that the deck states with it.
 bool conforms(const Parameter& parameter) {
   if (parameter.type == "bool") return to_boolean(parameter.value).has_value();
   if (is_integer_type(parameter.type)) return to_integer(parameter.value).has_value();

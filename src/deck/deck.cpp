@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Equilibria have times of their own, some thousand times as long as those of steps.
+// Notes intervals longer than the explicit steps of Solver 2: equilibria often last a thousand times as long.
 void tell_of_long_intervals(const Deck& deck, Problems& problems) {
   const double duration = deck.next_solver->duration();
   const auto tell = [&](const std::string& path, const auto& sink) {
@@ -111,7 +111,7 @@ void look_at_files(Deck& deck, Problems& problems) {
   check_files(written_files(deck), read_files(deck), problems);
 }
 
-// Decks of other programs would give an error a line; one tells where to look.
+// A deck of another program gets one error that says where to look, instead of an error for each line.
 void refuse_cabanapds(const std::string& text, const fs::path& file, Problems& problems) {
   if (text.find("\"num_cells\"") == std::string::npos) return;
   problems.add("num_cells", "this is an input of CabanaPD, whose words inputs/from-cabanapd.md translates");

@@ -10,8 +10,7 @@ namespace strut {
 // dt (s); dt = 0 leaves stress and state unchanged. Halo exchanges overlap with interior points.
 // `with_diagnostics`: also computes what only output needs: the energy of the stabilization, and F, R and stress
 // of ordinary points. `time`: at the end of the step, s. `breaking`: breaks bonds if dt > 0. Afterwards
-// force_density holds the force of the points' own states, for the one call of sum_forces that must follow. that
-// is to follow.
+// force_density holds the force of the points' own states, for the one call of sum_forces that must follow.
 StepReport advance_stress(Body& body, double dt, bool with_diagnostics, double time = 0,
                           BondBreaking* breaking = nullptr);
 

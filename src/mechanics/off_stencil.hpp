@@ -5,7 +5,7 @@
 
 namespace strut {
 
-// Collects those of a block on a lattice, from the present families.
+// Finds these points of a block on a lattice by its present families.
 void set_off_stencil(const Domain& domain, MaterialBlock& block);
 
 }  // namespace strut

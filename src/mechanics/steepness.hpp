@@ -16,8 +16,8 @@ Symmetric inverse_of(const Tensor& K);
 double steepness(const Body& body, int i);
 
 // l² V tr S⁻¹ of an owned point, S = Σ V ξ ⊗ ξ over its family and l = V^⅓, V of the whole cell: 0.3 or less inside of
-// a lattice, 1.3 at corners of two layers, (l/t)²/n where n neighbors lie at a mean distance t from one plane, which is
-// what F across it is measured over then.
+// a lattice, 1.3 at corners of two layers. A family near one plane has (l/t)²/n: only n neighbors, at a mean distance t
+// from the plane, determine F across it.
 double flatness(const Domain& domain, int i);
 
 }  // namespace strut

@@ -1,5 +1,5 @@
-// Means between rows of the history, and over points. Means and sums over the points of a set, or over the layers of a profile, for the history: "Mean_X(foam)",
-// "Sum_X(foam)".
+// Means and sums over the points of a set or over the layers of a profile, "Mean_X(foam)" and "Sum_X(foam)" of the
+// history, and means of forces between its rows.
 #pragma once
 
 #include <span>

@@ -112,7 +112,7 @@ bool is_initial_displacement(const deck::Condition& condition) {
   return std::holds_alternative<InitialDisplacement>(condition.kind);
 }
 
-// Explicit steps after equilibria: their errors and warnings come before the hours that equilibria may take.
+// Checks the explicit steps after equilibria: their errors and warnings come before equilibria, which may take hours.
 std::string look_at_next_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
                                deck::Problems& problems) {
   deck::Deck next = deck;
@@ -134,7 +134,7 @@ std::string look_at_next_steps(const deck::Deck& deck, const PointsOfConditions&
   return sudden_motions(next, points, body) + sampled_pulses(next, points, body);
 }
 
-// Explicit steps after another run: a temperature that is not the one there acts at once.
+// Warns if explicit steps continue another run at other temperatures: the change of thermal strain acts at once.
 std::string sudden_expansion(const deck::Deck& deck, Body& body) {
   constexpr double round_off = 1e-9;
   const double most = body.domain.communicator.max(sudden_expansion(body, deck.solver.initial_time));

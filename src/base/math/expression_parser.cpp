@@ -1,8 +1,11 @@
 // Compilation, by recursive descent:
-//   statements: { [double | int] name = expression ; | if ( expression ) { statements } [else if …] [else { statements
-//   }] } expression: or [? expression : expression] or, and, equality, order, sum, product: operands with operators of
-//   one rank between, from the left power: {- | + | !} primary [^ power] primary: number | name | function ( … ) | (
-//   expression ) | table ( expression {, place, value} )
+// clang-format off
+//   statements:  { [double | int] name = expression ; | if ( expression ) { statements } [else if …] [else { statements }] }
+//   expression:  or [? expression : expression]
+//   or, and, equality, order, sum, product: operands with operators of one rank between, from the left
+//   power:       {- | + | !} primary [^ power]
+//   primary:     number | name | function ( … ) | ( expression ) | table ( expression {, place, value} )
+// clang-format on
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -249,7 +252,7 @@ class ExpressionParser {
     if (rank == ranks) return power();
     binary(rank + 1);
     for (bool first = true; const Operator* one = coming_operator(rank); first = false) {
-      // A comparison gives 1 or 0, and that is hardly what the next one is meant to compare.
+      // In a < b < c, the second comparison would get 1 or 0 from the first one.
       if (!first && (rank == rank_of_order || rank == rank_of_equality)) fail("write a < b && b < c for a < b < c");
       take(one->text);
       binary(rank + 1);

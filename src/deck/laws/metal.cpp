@@ -79,9 +79,9 @@ Heating make_heating(const Values& material) {
   return {.capacity = read_density(material) * section[specific_heat], .plastic_share = section[plastic_share]};
 }
 
-// The elastic constants have one, too: of these the shear modulus alone counts.
+// Notes a bulk modulus of the elastic constants that differs: only their shear modulus counts.
 void note_two_bulk_moduli(const Values& material, double elastic, double of_equation, Problems& problems) {
-  constexpr double differs = 0.25;  // what is measured statically and by shocks differs by some percent
+  constexpr double differs = 0.25;  // static and shock measurements differ by some percent
   if (std::abs(of_equation - elastic) <= differs * elastic) return;
   std::ostringstream text;
   text.precision(4);

@@ -122,7 +122,7 @@ ThermalFlow make_threshold(const Values& v) {
                              .saturation_rate = v[saturation_rate]};
 }
 
-// It must harden at the slowest rate that counts, too.
+// Reports a threshold that does not harden at the slowest rate that the law distinguishes.
 void check_threshold(const Values& v, Problems& problems) {
   using namespace threshold;
   if (v.chosen() != "Mechanical Threshold" || !v.has(slope) || !v.has(slope_log) || !v.has(slope_root)) return;

@@ -94,7 +94,7 @@ const std::map<std::string, std::string> missing_of_mesh = {
     {"Input FEM Topology File", "finite elements are not coupled"},
 };
 
-// A law without peculiarities in place of the missing one: the rest of the deck is then checked.
+// Replaces a missing law by a plain one, so that the rest of the deck can be checked.
 void stand_in(List& material) {
   material.lists.clear();
   material.parameters = {{"Material Model", "string", "Elastic"},
@@ -150,7 +150,7 @@ void refuse_contact(List& deck, Problems& problems) {
   }
 }
 
-// With the keys that choose among fields that are not there. Explicit steps stand in for a missing solver.
+// Also removes the keys that choose the fields of several physics. Explicit steps stand in for a missing solver.
 void refuse_solvers(List& deck, Problems& problems) {
   erase_parameter(deck, "Multiphysics");
   for (List& solver : deck.lists) {

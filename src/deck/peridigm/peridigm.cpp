@@ -21,7 +21,7 @@ Named* find(std::vector<Named>& all, const std::string& name) {
 
 const char* const needleman = "Viscoplastic Needleman Correspondence";
 
-// A key whose only value with a meaning here is the one that switches it off. Another value is an error, or only told.
+// A key whose only meaningful value here switches it off. Another value is an error, or gets a note.
 struct OnlyOff {
   const char *key, *off, *what;
   bool is_told = false;
@@ -54,13 +54,13 @@ void drop_what_is_off(List& material, const std::string& path, Problems& problem
   }
 }
 
-// Without a flaw its parameters have no effect, and an error about the flaw is enough.
+// Drops the parameters of a flaw: without a flaw they have no effect; with one, the error about the flaw is enough.
 void drop_flaw(List& material) {
   if (!find_parameter(material, "Enable Flaw")) return;
   std::erase_if(material.parameters, [](const Parameter& one) { return one.name.starts_with("Flaw "); });
 }
 
-// Only laws by correspondence read it.
+// Drops the coefficient from other laws than those by correspondence.
 void drop_hourglass(List& material, const std::string& path, Problems& problems) {
   const std::string model = value_of(material, "Material Model"), key = "Hourglass Coefficient";
   if (!find_parameter(material, key) || model.ends_with("Correspondence") || model.empty()) return;
@@ -142,7 +142,7 @@ void translate_needleman(List& material, const std::string& path, Problems& prob
       "above it the law is the same, but Peridigm looks for the flow at other strains than it then takes");
 }
 
-// Bonds that break by stretch count what is beyond the expansion of the material, where Peridigm has a key of its own.
+// Here the stretch that breaks a bond never includes thermal expansion; Peridigm has a key for that.
 void drop_expansion_of_bonds(List& deck, Problems& problems) {
   List *models = find_list(deck, "Damage Models"), *materials = find_list(deck, "Materials");
   if (!models || !materials) return;

@@ -17,7 +17,7 @@ bool translate_peridigm(List& deck, const std::filesystem::path& folder, Problem
 
 // True if a deck has sections or keys that only decks of Peridigm have: its meanings hold.
 bool is_peridigms(List& deck);
-// True if it has such that ours have seldom: differences are told.
+// True if it has sections or keys that are rare in decks of ours: differences then get notes.
 bool may_be_peridigms(List& deck);
 
 // Reads a deck of Peridigm as its own reader does: the last of several equal keys counts, \{ is a brace, files are

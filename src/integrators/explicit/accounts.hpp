@@ -33,8 +33,8 @@ class EnergyAccount {
   // Collective; at the time of the impulses. `dt`: length of the step after it, s.
   Ledger ledger(const Body& body, const Conditions& conditions, const contact::Contact& contact, const MidSteps& steps,
                 double time, double dt);
-  // Counts the energy that the body has at the first ledger as put in before. `half_step`: J, what is put in from the
-  // second time on, because a body that is strained at the start begins with half a step.
+  // Counts the energy of the body at the first ledger as put in before. `half_step`: J, counted as put in from the
+  // second ledger on, because a body that is strained at the start begins with half a step.
   bool has_begun() const { return has_begun_; }
   void begin_with(const Ledger& ledger, double half_step) {
     initial_ += ledger.gained, half_step_ = half_step, has_begun_ = true;

@@ -19,8 +19,8 @@ constexpr int most_rounds = 30;          // of the multipliers of tools, per ste
 constexpr int easily = 6;                // iterations of Newton per round up to which the next step may be longer
 constexpr double round_off = 1e-9;
 
-// Energies below this multiple of the work of errors are no scale for errors: a body that is only carried along, or
-// only expands, has no others. Users are told of errors from 1 % on.
+// The balance error is relative to an energy of at least this multiple of the work of errors: a body that is only
+// carried along, or only expands, has no larger energy. Users get a warning from an error of 1 % on.
 constexpr double above_errors = 100;
 
 // Memory per point: 4.8 kB of GMRES vectors, 0.6 kB of the tangent, the rest of the near matrix and its hierarchy.

@@ -73,7 +73,7 @@ std::vector<Key> keys_of(const std::vector<SideFace>& faces) {
   return keys;
 }
 
-// Collective. Those of the faces that none of the same corners meets.
+// Collective. The faces that no face with the same corners meets.
 std::vector<SideFace> without_twin(const std::vector<SideFace>& faces, const Communicator& communicator) {
   const std::vector<Key> keys = keys_of(faces);
   const std::vector<int> counts = counts_of(keys, keys, communicator);
@@ -84,8 +84,8 @@ std::vector<SideFace> without_twin(const std::vector<SideFace>& faces, const Com
   return alone;
 }
 
-// Collective. Tetrahedra may halve a square by its other diagonal behind the other side: faces all of whose corners are
-// those of such triangles there go on.
+// Collective. The faces that are not continued by other triangles: behind the other side, tetrahedra may halve a square
+// along its other diagonal, so a face is continued if all of its corners are corners of such triangles.
 std::vector<SideFace> without_halves(const std::vector<SideFace>& faces, const Communicator& communicator) {
   std::vector<Key> corners, asked;
   for (const SideFace& one : faces) {

@@ -1,4 +1,4 @@
-// Inside mechanics: what the passes over a block's points that set their force states have in common.
+// Inside mechanics: shared by the passes over a block's points that set their force states.
 #pragma once
 
 #include <atomic>
