@@ -52,9 +52,9 @@ inline double printed_flow_stress(const materials::FlowStress& flow, double stra
          std::visit(PrintedRate{rate}, flow.rate);
 }
 
-// ---- Of metals that may be hot --------------------------------------------------------------------------------------
+// ---- Metals with temperature ----------------------------------------------------------------------------------------
 
-// Rates below 1e-3 /s count as that.
+// Rates below 1e-3 /s count as 1e-3 /s.
 inline double printed_flow_stress(const materials::ZerilliArmstrong& f, double strain, double rate, double T, double) {
   const double thermal = f.thermal.modulus * std::pow(strain, f.thermal.exponent);
   return f.athermal + f.hardening.modulus * std::pow(strain, f.hardening.exponent) +

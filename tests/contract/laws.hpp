@@ -1,5 +1,5 @@
-// The table of laws that every contract test loops over. A new law is one line in table_of_laws(), and one below "What
-// sets laws apart" for each way in which it is not like a metal.
+// The table of laws that every contract test loops over. A new law is one line in table_of_laws(), and one below
+// "Exceptions" for each property in which it differs from a metal.
 #pragma once
 
 #include <ostream>
@@ -12,10 +12,10 @@
 
 namespace strut::testing {
 
-// ---- What sets laws apart -------------------------------------------------------------------------------------------
+// ---- Exceptions -----------------------------------------------------------------------------------------------------
 
 // True for a law of the second form, which takes the stretch, or with a pressure by the volume. Its test paths contain
-// J and the stretch, and logarithmic strains of more than about 1 are no path of a body.
+// J and the stretch, with logarithmic strains up to about 1: no body deforms more.
 template <class L>
 inline constexpr bool from_stretch = false;
 template <>
@@ -25,8 +25,8 @@ inline constexpr bool from_stretch<materials::ShockJ2> = true;
 template <>
 inline constexpr bool from_stretch<materials::Hyperelastic> = true;
 
-// Hooke's law of the logarithmic strain, and flow, if any, that keeps the volume: the closed forms of that, and the
-// balance of work at J = 1, are checked. A law that is not has its own closed forms in a file of its own.
+// True for Hooke's law of the logarithmic strain, with flow, if any, that keeps the volume: tests check its closed
+// forms and the balance of work at J = 1. Other laws have closed forms in files of their own.
 template <class L>
 inline constexpr bool like_a_metal = true;
 template <>
@@ -38,8 +38,8 @@ inline constexpr bool like_a_metal<materials::ShockJ2> = false;
 template <>
 inline constexpr bool like_a_metal<materials::Hyperelastic> = false;
 
-// How far stress and energy below yield may be from Hooke's law at a strain of 1e-4, as a part of themselves. 0: not
-// but by round-off. A law that curves from the start departs by some strains.
+// Largest relative deviation of stress and energy below yield from Hooke's law at a strain of 1e-4; 0: by round-off
+// only. A law that is curved from the start deviates by a few times the strain.
 template <class L>
 inline constexpr double departs_from_hooke = 0;
 template <>
@@ -62,7 +62,7 @@ struct NamedLaw {
 inline void PrintTo(const NamedLaw& law, std::ostream* out) { *out << law.name; }
 
 // Copper: E 110 GPa, ν 0.296, σ_y 50 MPa, ε̄₀ 0.00218, ε̄̇₀ 1e-3 /s (Postek, Nowak & Pęcherski 2021); the other curves
-// are of the size that copper's have.
+// have values typical of copper.
 inline constexpr double youngs = 110e9, poisson = 0.296;                                                // Pa, -
 inline constexpr double bulk = youngs / (3 * (1 - 2 * poisson)), shear = youngs / (2 * (1 + poisson));  // Pa
 inline constexpr double yield_stress = 50e6;                                                            // Pa
@@ -95,7 +95,7 @@ inline const std::vector<std::pair<std::string, materials::Rate>>& rates() {
   return table;
 }
 
-// Copper again, hot. Heat is a hundred times as dear as it is, so that paths of a contract test do not melt it.
+// Copper with temperature; its heat capacity is a hundred times the real one, so that no path of a test melts it.
 inline materials::ThermalJ2 hot_metal(materials::ThermalFlow flow) {
   return {.bulk = bulk, .shear = shear, .flow = std::move(flow), .heating = {3.4e8, 0.9, 293}};
 }
@@ -128,14 +128,14 @@ inline std::vector<std::pair<std::string, materials::ThermalFlow>> thermal_flows
 inline std::vector<NamedLaw> table_of_laws() {
   std::vector<NamedLaw> table;
   table.push_back({"elastic", materials::Elastic{bulk, shear}});
-  table.push_back({"brittle", materials::Brittle{{bulk, shear}}});  // what it does beyond its strength: test_brittle.cpp
+  table.push_back({"brittle", materials::Brittle{{bulk, shear}}});  // cracks: test_brittle.cpp
   for (const auto& [hardening_name, hardening] : hardenings()) {
     for (const auto& [rate_name, rate] : rates()) {
       table.push_back(
           {"j2_" + hardening_name + "_" + rate_name, materials::J2{bulk, shear, {yield_stress, hardening, rate}}});
     }
   }
-  // Not yet failing; what it does then: test_ductile.cpp.
+  // Before failure; after it: test_ductile.cpp.
   const materials::J2 metal{bulk, shear, {yield_stress, materials::VoceHardening{150e6, 8}, materials::NoRate{}}};
   table.push_back(
       {"ductile", materials::Ductile{metal, {materials::JohnsonCookFailure{{1e3, 0, 0, 0}, 1}, 1e3}, 1e-3}});

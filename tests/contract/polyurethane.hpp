@@ -1,9 +1,9 @@
 // The rigid polyurethane foam of the reference problems: parameters as da Costa Machado, Alves, Al-Qureshi & Rossi
-// print them. Their hardening tables are not in print. In their place stands the closed form of Neilsen, Morgan & Krieg
+// print them. Their hardening tables are not in print and are replaced by the closed form of Neilsen, Morgan & Krieg
 // (1987, SAND86-2927) for rigid closed-cell polyurethane foam, a skeleton of constant strength and the air in its
 // cells, which is compressed at constant temperature (also Gibson & Ashby 1997, ch. 5):
 //   σ = σ_skeleton + p_air (1 − J)/(J − ρ₀*),
-// in Cauchy stress, the same in uniaxial compression (which keeps its sides) and hydrostatic; τ = J σ.
+// in Cauchy stress, the same in uniaxial compression (without lateral strain) and hydrostatic compression; τ = J σ.
 #pragma once
 
 #include <cmath>
@@ -23,8 +23,7 @@ struct Polyurethane {
     const double J = std::exp(-strain);
     return J * (strength + air * (1 - J) / (J - density)) - strength;
   }
-  // In steps that follow the curve to 1 % of the stress; to J = 0.061. `axial`: ε_a/ε_v, by which a uniaxial curve is
-  // read.
+  // A table that follows the curve to 1 % of the stress, down to J = 0.061. `axial`: ε_a/ε_v, for a uniaxial curve.
   static materials::TableHardening table(double strength, double axial = 1) {
     materials::TableHardening result;
     for (const double strain : {0.0, 0.1,  0.2, 0.35, 0.5, 0.7, 0.9,  1.1,  1.3,  1.5,  1.7,

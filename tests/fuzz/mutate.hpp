@@ -20,7 +20,7 @@ std::string changed_deck(std::string deck, Random& random);
 // "nan", "1e400", "-1", a very long word, …
 std::string awkward_value(Random& random);
 
-// Mostly right: what the grammar allows, with a slip now and then.
+// An expression that is mostly valid, with an error now and then.
 std::string expression(Random& random, int depth = 0);
 
 }  // namespace strut::fuzz

@@ -1,4 +1,4 @@
-// Random numbers that are the same everywhere: an input is known by the seed and its number.
+// Random numbers that are the same on every machine: the seed and the number of an input identify it.
 #pragma once
 
 #include <cstdint>

@@ -9,9 +9,9 @@ namespace strut::fuzz {
 
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool sanitized = true;
-// Memory that nothing points to any more, since the last time it was asked for.
+// True if memory has leaked since the last call.
 inline bool has_leaked() { return __lsan_do_recoverable_leak_check() != 0; }
-// Memory that is taken meanwhile may be lost: Open MPI's, when it starts.
+// False: memory that is allocated from now on may leak, as that of Open MPI at its start.
 inline void ask_for_leaks(bool asked) { asked ? __lsan_enable() : __lsan_disable(); }
 #else
 constexpr bool sanitized = false;

@@ -13,10 +13,10 @@ namespace strut::fuzz {
 
 struct Subject {
   std::string name;
-  std::string file;  // that its reader is given
+  std::string file;  // name of the file for the reader
   std::vector<std::string> samples;
   std::function<std::string(const std::string& sample, const std::string& other, Random& random)> change;
-  // Returns or throws Error; anything else is what we are looking for.
+  // Must return or throw Error; anything else is a fault.
   std::function<void(const std::filesystem::path&)> read;
 };
 

@@ -1,5 +1,5 @@
-// A process that tries inputs one after the other, under limits, and leaves word of where it is: whatever happens to
-// it, the process that started it knows the input.
+// A process that tries inputs one after the other, under limits, and records the number of the present one, so that the
+// process that started it knows the input at which it died.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct Options {
 
 // Shared by the two processes.
 struct Word {
-  volatile std::uint64_t input;     // that is being tried
-  volatile std::uint64_t accepted;  // so far, others gave an Error
+  volatile std::uint64_t input;     // number of the present input
+  volatile std::uint64_t accepted;  // inputs so far that gave no Error
   volatile bool ready;              // the samples are made
   char subject[32];
   char file[256];

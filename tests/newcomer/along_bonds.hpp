@@ -1,4 +1,4 @@
-// A spring on what of the residual of the mean deformation gradient of both ends lies along the bond.
+// A spring on the component along the bond of the residual of the mean deformation gradient of both ends.
 #pragma once
 
 #include "mechanics/stabilization/residual.hpp"

@@ -27,8 +27,8 @@ struct NeoHookean {
 
   double lame() const { return bulk - 2 * shear / 3; }
 
-  // By E = U − I: in tr B − 3 − 2 ln J small strains would drown in the round-off of numbers near 1. For the same
-  // reason J is that of U, to the last digits, and not the step's.
+  // Uses E = U − I: in tr B − 3 − 2 ln J small strains would be lost in the round-off of numbers near 1. For the same
+  // reason J is computed from U and not taken from the step.
   PointStress step(const PointStep& step, const Symmetric&, State& state) const {
     const Symmetric E = step.stretch - spherical(1);
     const Symmetric E_squared = symmetric_part(to_tensor(E) * to_tensor(E));

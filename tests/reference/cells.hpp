@@ -38,11 +38,11 @@ std::vector<Cell> gathered(const SmallCubes& body, const std::function<Place(con
 // without a neighbor stay.
 void merge_small(std::vector<Cell>& cells, int fewest);
 
-// An unique number of a place; places from −2¹⁹ to 2¹⁹.
+// A unique number of a place; places from −2¹⁹ to 2¹⁹.
 std::int64_t number_of(const Place& place);
 
-// One point for each cell, without shared nodes. `edge`: of a small cube; `spacing`: of the cells, m. `at_grid`: the
-// points stand where their cell has its place, times the spacing, and not at the centroid.
+// One point for each cell, without shared nodes. `edge`: of a small cube; `spacing`: of the cells, m. `at_grid`: points
+// are at the place of their cell times the spacing instead of at the centroid.
 PointCloud cloud_of(const std::vector<Cell>& cells, double edge, double spacing, bool at_grid);
 
 }  // namespace strut::reference

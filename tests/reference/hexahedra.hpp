@@ -1,7 +1,7 @@
-// A rival: explicit steps of eight-node hexahedra of an ideally plastic metal, as many side by side as a register has
-// lanes. One integration point with a stiffness against hourglass modes (Flanagan & Belytschko 1981, Int. J. Numer.
-// Meth. Eng. 17:679), or eight with the mean dilatation (Hughes 1980, ibid. 15:1413). Updated Lagrangian at the middle
-// of a step, rotated as Hughes & Winget (1980, ibid. 15:1862) do, J2 by radial return.
+// For comparison: explicit steps of eight-node hexahedra of an ideally plastic metal, as many side by side as a
+// register has lanes. One integration point with a stiffness against hourglass modes (Flanagan & Belytschko 1981, Int.
+// J. Numer. Meth. Eng. 17:679), or eight with the mean dilatation (Hughes 1980, ibid. 15:1413). Updated Lagrangian at
+// the middle of a step, rotated as Hughes & Winget (1980, ibid. 15:1862) do, J2 by radial return.
 #pragma once
 
 #include <array>

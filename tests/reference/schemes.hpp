@@ -1,4 +1,4 @@
-// The schemes whose struts are put beside the references. One more is one more line.
+// The schemes whose struts are compared with the references. A new scheme is one line.
 #pragma once
 
 #include <array>

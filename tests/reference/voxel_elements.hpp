@@ -1,5 +1,5 @@
 // Finite elements on voxels, without a matrix: cubes with eight nodes, linear elastic, fully integrated. All cubes have
-// the same stiffness; what differs is which nodes they take.
+// the same stiffness and differ only in their nodes.
 #pragma once
 
 #include <Eigen/SparseCore>

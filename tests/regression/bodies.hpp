@@ -1,4 +1,4 @@
-// Small meshes, decks made of parts, and runs whose body can be looked at while they go.
+// Small meshes, decks made of parts, and runs that a test can inspect at each step.
 #pragma once
 
 #include <cmath>
@@ -89,7 +89,7 @@ inline std::string plane(const std::string& name, const std::string& type, const
   return section(name, key("Type", type) + key("Node Set", set) + key("Point", point) + key("Normal", normal));
 }
 
-// Copper. Elastic where no yield stress is given.
+// Copper; elastic without a yield stress.
 inline std::string copper(const std::string& plasticity = "") {
   const std::string model = plasticity.empty() ? "Elastic Correspondence" : "Elastic Plastic Correspondence";
   return section("copper", key("Material Model", model) + key("Density", "8930") + key("Young's Modulus", "117e9") +
@@ -127,7 +127,7 @@ struct Parts {
   }
 };
 
-// Two bodies of copper, "block_1" and "block_2" of points.txt (cubes() below), the second one on its way to the first.
+// Two bodies of copper, "block_1" and "block_2" of points.txt (cubes() below); the second one flies toward the first.
 inline Parts thrown_block(const std::string& contact) {
   Parts parts;
   parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
@@ -142,7 +142,7 @@ inline Parts thrown_block(const std::string& contact) {
   return parts;
 }
 
-// `text` with the first `old` replaced; a test whose `old` is not there is wrong.
+// `text` with the first `old` replaced; throws if `old` is missing, because the test is then wrong.
 inline std::string changed(std::string text, const std::string& old, const std::string& replacement) {
   const std::size_t at = text.find(old);
   if (at == std::string::npos) throw std::logic_error("the deck under test does not hold: " + old);
@@ -230,7 +230,7 @@ inline Advice told_at_the_start(const deck::Deck& deck, const Communicator& worl
   return advice(deck, set_up(deck, world));
 }
 
-// A run in a test's own hands. `look` sees body and ledger at every step, the first and the last included.
+// A run that the test advances. go() calls `look` with the ledger at every step, the first and the last included.
 class Simulation {
  public:
   Simulation(const RunFolder& folder, const Parts& parts)

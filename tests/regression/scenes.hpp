@@ -1,5 +1,5 @@
-// Small scenes that together have every formulation, contact, damage, tools, heat, viscosity, substeps and equilibria:
-// what must hold whatever a run does.
+// Small scenes that together have every formulation, contact, damage, tools, heat, viscosity, substeps and equilibria,
+// for properties that must hold in every run.
 #pragma once
 
 #include <string>

@@ -67,7 +67,7 @@ inline void deform(Body& body, const std::function<Vector(const Vector&)>& place
   }
 }
 
-// Whether the whole family of X, and the families of its neighbors, lie inside the lattice.
+// True if the whole family of X, and the families of its neighbors, lie inside the lattice.
 inline bool is_deep(const LatticeSpec& spec, const Vector& X, double margin) {
   const Vector size = spec.spacing * spec.cells.cast<double>().matrix();
   const double rim = margin * spec.spacing;

@@ -59,15 +59,15 @@ struct Loaded {
     conditions.add(SymmetryPlane{std::move(points), normal, count});
     return count++;
   }
-  // Met by all points.
+  // Adds a tool that all points may meet.
   int press(Shape shape, int axis, const std::string& travel, double friction = 0) {
     RigidTool tool{points_where(body, [](const Vector&) { return true; }), std::move(shape), {}, friction, count};
     tool.travel[axis] = Function::parse(travel);
     conditions.add(std::move(tool));
     return count++;
   }
-  // Two faces keep their places across themselves: no rigid motion across z is left, and a bar in uniaxial stress does
-  // not notice.
+  // Holds the lower faces across x and y along their normals: this prevents rigid translation across z, and a bar in
+  // uniaxial stress feels no force.
   void guide() {
     hold(layer(body, spec, 0, false), Vector::UnitX());
     hold(layer(body, spec, 1, false), Vector::UnitY());
@@ -92,7 +92,7 @@ inline int point_at(const Body& body, const Vector& place) {
   return -1;
 }
 
-// For the deck's language.
+// A number with all digits, for expressions of a deck.
 inline std::string number(double value) {
   std::ostringstream text;
   text.precision(17);
@@ -115,8 +115,8 @@ struct Bar : Loaded {
   int low, high;
 };
 
-// The strain of a point by the laws in rates: the sum of 2 (λ − λ₀)/(λ + λ₀) over steps, ln λ but for a twelfth of the
-// cube of a step's.
+// The strain of a point as laws in rate form integrate it: the sum of 2 (λ − λ₀)/(λ + λ₀) over steps. It differs from
+// ln λ by a twelfth of the cube of the strain of each step.
 class Gauge {
  public:
   Gauge(const Body& body, const Vector& place) : body_(body), point_(point_at(body, place)) {}
@@ -150,7 +150,7 @@ class Gauge {
 
 using Look = std::function<void(QuasiStatic&)>;
 
-// To the end of the loads; `look` sees every step.
+// Runs to the end of the loads, and calls `look` after every load step.
 inline Ledger load(
     QuasiStatic& solver, const Look& look = [](QuasiStatic&) {}) {
   while (solver.time() < 1) {
@@ -160,7 +160,7 @@ inline Ledger load(
   return solver.ledger();
 }
 
-// The forces that the rows of a balance may leave in the sum over all points: the root mean square of so many.
+// Largest sum over all points (N) of the forces that a search with this tolerance may leave, as for random directions.
 inline double left_over(const Loaded& loaded, const Tolerance& tolerance, double scale) {
   const double points = static_cast<double>(loaded.world.sum(static_cast<std::int64_t>(loaded.body.owned())));
   return tolerance.relative * std::sqrt(points) * scale;

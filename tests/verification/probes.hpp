@@ -1,5 +1,4 @@
-// Questions of several tests to a body: does it stay bounded at a step, and what does the linearized operator make of a
-// wave?
+// Shared by several tests of a body: whether it stays bounded at a time step, and the linearized operator of a wave.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +21,7 @@ inline void throw_apart(Body& body, double speed) {
   }
 }
 
-// Whether noise stays bounded over a thousand steps of `factor` times the estimated limit.
+// True if noise stays bounded over a thousand steps of `factor` times the estimated limit.
 inline bool stays_bounded(Body body, double factor) {
   const double limit = CentralDifference(body, {}, {}, {0, 1, false}, 0).critical_time_step();
   throw_apart(body, 1e-3);

@@ -147,7 +147,7 @@ def shortening(deck, table, axis, words):
             column(table, words.shortening, "--shortening")
         return signed(way), words.shortening
     sides = deck and stretch_of_sides(deck, axis, times)
-    if sides:  # which no displacement of points tells: they move with what is between the sides
+    if sides:  # displacements of points do not show the motion of the sides
         return signed(sides[1]), f"the stretch of the periodic sides `{sides[0]}`"
     means = [n for n in table if re.fullmatch(rf"Mean_Displacement_{letter}\([^ ]+\)", n)]
     if len(means) in (1, 2):

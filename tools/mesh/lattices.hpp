@@ -19,7 +19,7 @@ std::vector<Edge> lattice_cell(const std::string& name);
 // All struts in a box of this size at the origin, and one cell more around it; `cell`: edge of a cell, m.
 std::vector<Edge> lattice_edges(const std::string& name, const Vector& size, double cell);
 
-// The distance from the surface, in first order, m: for a solid positive outside, for a sheet on both sides.
+// The distance from the surface, to first order, m: for a solid positive outside, for a sheet on both sides.
 std::function<double(const Vector&)> surface_field(const std::string& name, double cell);
 
 }  // namespace strut::mesh

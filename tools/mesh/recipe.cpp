@@ -368,7 +368,7 @@ class Converter {
     problems_.push_back("line " + std::to_string(entry.line) + ": " + problem);
   }
 
-  // One of the words; the one of the number `usual` where the key is not there.
+  // The Enum whose number is the index of the key's value in `words`; `usual` if the key is missing or its value wrong.
   template <class Enum>
   Enum choice(const std::string& key, const std::vector<std::string>& words, int usual) {
     const Entry* entry = entries_.find(key);

@@ -38,7 +38,7 @@ struct Body {
   double relative_density = 0;        // volume of a foam's struts over that of its box; 0: by the thickness
   std::string lattice;                // its name
   double thickness = 0;               // m, of a lattice's struts or sheets; 0: by the density
-  std::array<bool, 3> periodic = {};  // along which axes a foam or lattice goes on behind a side as behind the other
+  std::array<bool, 3> periodic = {};  // axes along which a foam or lattice repeats
   double sizes = 0;                   // of a foam's cells: standard deviation of the spheres' diameters over their mean
   int relax = 0;                      // steps of Lloyd
   Vector stretch = Vector::Ones();    // of a foam's cells

@@ -40,7 +40,7 @@ def energies(path, out):
 
 
 def named(path, prefixes):
-    """The columns that the deck asked for and that begin so."""
+    """The columns whose names begin with one of the prefixes."""
     return [name for name in history(path) if name.startswith(prefixes)]
 
 

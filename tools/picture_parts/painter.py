@@ -1,4 +1,4 @@
-"""Surfaces -> what is seen of them, by VTK and without a screen: EGL draws, with Mesa in memory where there is no graphics card."""
+"""Draws surfaces by VTK without a screen: by EGL, which uses Mesa in memory if there is no graphics card."""
 import ctypes
 
 import numpy as np
@@ -9,8 +9,8 @@ from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 from vtkmodules.vtkRenderingOpenGL2 import vtkGenericOpenGLRenderWindow
 
-FINER = 2  # pixels that are drawn for one of the picture, each way
-TO_LIGHT = (-0.42, 0.55, 0.72)  # right, up, towards the eye: from the upper left, behind the one who looks
+FINER = 2  # drawn pixels per pixel of the picture, along each side
+TO_LIGHT = (-0.42, 0.55, 0.72)  # right, up, towards the eye: light from the upper left, behind the viewer
 MOST_POINTS = 2**24 - 1  # that colors can tell apart
 
 
@@ -42,7 +42,7 @@ class Camera:
         return 0.5 * self.width + right, 0.5 * self.height - up
 
     def aim(self, camera):
-        """VTK's."""
+        """Sets VTK's camera."""
         focus = self.middle @ self.axes
         camera.ParallelProjectionOn()
         camera.SetFocalPoint(focus)
@@ -56,7 +56,7 @@ class Camera:
 
 
 def make_current():
-    """A context of EGL that needs no display; whether there is one now."""
+    """Makes a context of EGL current that needs no display; False if there is none."""
     try:
         egl = ctypes.CDLL("libEGL.so.1")
     except OSError:
@@ -86,7 +86,7 @@ def new_window():
         getattr(window, "Set" + option)(True)
     window.SetOwnContext(False)
     window.SetShowWindow(False)
-    vtkObject.GlobalWarningDisplayOff()  # its GLEW misses a display, and does without
+    vtkObject.GlobalWarningDisplayOff()  # GLEW in VTK warns that there is no display; it needs none
     window.OpenGLInit()
     return window
 
@@ -121,7 +121,7 @@ class Painter:
         self.camera, self.shape = camera, (FINER * camera.height, FINER * camera.width)
 
     def image(self, numbers=None):
-        """Red, green and blue, 0 to 255; numbers: of its faces, to be told by their colors."""
+        """Red, green and blue, 0 to 255; numbers: of the faces, drawn as their colors."""
         self.mapper.SetScalarVisibility(numbers is not None)
         self.actor.GetProperty().SetLighting(numbers is None)
         if numbers is not None:
@@ -201,6 +201,6 @@ class Glass:
         self.color = color * (0.55 + 0.45 * facing[..., None])
 
     def over(self, image, near):
-        """Laid over an image where it is nearer than what that shows; alpha has multiplied the colors."""
+        """The image with the glass over it where the glass is nearer; colors are premultiplied by alpha."""
         share = np.where(self.near > near, self.share[..., 0], 0)[..., None]
         return np.concatenate([share * self.color, share], axis=2) + (1 - share) * image

@@ -55,7 +55,7 @@ class Tool:
         column = f"Reaction_{c}({self.name})"
         if column not in table and (speed or force):
             fail(f"where the tool '{self.name}' is drawn follows from {column}: add it to the deck's History")
-        # The column is what the bodies feel, means from row to row.
+        # The column has the forces on the bodies, as means from row to row.
         impulse = -np.cumsum(table.get(column, np.zeros(len(times))) * np.diff(times, prepend=times[0]))
         if force:
             impulse = impulse + cumulative_trapezoid([self._at(f"Force {c}", force, t) for t in times], times, initial=0)

@@ -50,7 +50,7 @@ def joined(surfaces):
 
 
 def polydata(corners, quads):
-    """VTK's."""
+    """VTK's polydata of a surface."""
     points, cells, data = vtkPoints(), vtkCellArray(), vtkPolyData()
     points.SetData(numpy_to_vtk(np.ascontiguousarray(corners), deep=True))
     cells.SetData(*(numpy_to_vtkIdTypeArray(ids.astype(np.int64), deep=True) for ids in (np.arange(0, quads.size + 1, 4), quads.ravel())))

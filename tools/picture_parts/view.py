@@ -75,7 +75,7 @@ def kept(result, block, clip, towards):
 
 
 def hidden_points(result, frame, hide):
-    """For all points, whether a variable is above a value there; such as damage, to see into cracks."""
+    """True for each point at which a variable exceeds a value: damage, for example, to see into cracks."""
     if not hide:
         return np.zeros(len(result.reference), bool)
     name, most = hide

@@ -1,4 +1,4 @@
-// The module strut for Python: what only C++ can do. strut/*.py make of it what a user sees.
+// The C++ part of the Python module strut; strut/*.py build the interface for users on it.
 #include <pybind11/iostream.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -121,7 +121,7 @@ class Signals {
 
 class PythonRun {
  public:
-  // `told`: has write(text) and flush() for what a run says. The mesh counts on rank 0.
+  // `told`: an object with write(text) and flush(), which gets the output of the run. Only rank 0's mesh is used.
   PythonRun(const std::string& text, const std::string& name, const io::Mesh* mesh, bool continues, py::object told)
       : ranks_(world()), told_(std::move(told)) {
     working([&] {
@@ -177,7 +177,7 @@ class PythonRun {
   std::optional<Run> run_;
 };
 
-// All points of the mesh in its order, on rank 0: numbers that are gathered, NaN for points that were dropped.
+// A field of all points in the order of the mesh, gathered on rank 0; NaN for points that were dropped.
 py::object whole(PythonRun& run, const std::string& name) {
   const Observable one = chosen(observables(run.body()), {name}, "fields").front();
   const PointCloud& cloud = run.body().domain.cloud;

@@ -1,4 +1,4 @@
-// Numbers of a run and of meshes as arrays of NumPy, without a copy where they lie so in memory.
+// Numbers of a run and of meshes as arrays of NumPy, without a copy if their layout in memory permits.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -16,7 +16,7 @@ namespace strut::python {
 pybind11::object array_of(std::vector<double> values, int width);
 
 // The field of that name of this rank's points, as it lies in memory, read-only and current while `owner` lives; None
-// if it is computed, or not numbers in a row. On several ranks a copy: another partition moves all points.
+// if it is computed, or not stored as consecutive numbers. On several ranks a copy, since repartitioning moves points.
 pybind11::object view_of(const Body& body, const std::string& name, const pybind11::object& owner);
 // The present places of the points, m; likewise.
 pybind11::array places(const Body& body, const pybind11::object& owner);

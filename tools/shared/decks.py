@@ -119,7 +119,7 @@ class Recipe:
             fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
 
     def bodies(self):
-        """A {key: value} each."""
+        """{key: value} of each body."""
         common, bodies = {}, []
         for line in self.text.splitlines():
             line = line.split("#")[0].strip()
@@ -173,7 +173,7 @@ class NoExpression(Exception):
 
 @functools.cache
 def asked():
-    """STRUT_EVALUATE, or the program that belongs to this tool; it runs until the tool ends."""
+    """The running strut-evaluate (STRUT_EVALUATE, or the one that belongs to this tool); it ends with the tool."""
     name = program("strut-evaluate")
     try:
         return subprocess.Popen([name], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
@@ -182,8 +182,8 @@ def asked():
 
 
 def evaluated(text, names):
-    """The number that an expression of these {name: number} is, nan and infinite among them; throws NoExpression."""
-    for name in set(names) - set("xyzt"):  # which the language does not know
+    """The value of an expression of these {name: number}, possibly nan or infinite; throws NoExpression."""
+    for name in set(names) - set("xyzt"):  # the language does not know these names
         text = re.sub(rf"(?<![\w.]){re.escape(name)}(?!\w|\s*\()", f"({float(names[name])!r})", text)
     program, place = asked(), " ".join(repr(float(names.get(c, math.nan))) for c in "xyzt")
     program.stdin.write(f"{place} {' '.join(text.split())}\n")

@@ -1,4 +1,4 @@
-// A deck that is right, to be read as it is or with one thing changed.
+// A valid deck, for tests that read it unchanged or with one change.
 #pragma once
 
 #include <fstream>
@@ -138,7 +138,7 @@ inline const std::string wall_shape = R"x("Rigid Plane"/>
       <Parameter name="Point" type="string" value="0 0 -1e-3"/>
       <Parameter name="Normal" type="Array(int)" value="{0, 0, 2}"/>)x";
 
-// Only what has no default.
+// Only keys without a default.
 inline const std::string small_deck = R"xml(<ParameterList>
   <ParameterList name="Discretization">
     <Parameter name="Type" type="string" value="Exodus"/>
@@ -166,7 +166,7 @@ inline const std::string small_deck = R"xml(<ParameterList>
 </ParameterList>
 )xml";
 
-// `text` with the first `old` replaced; a test whose `old` is not there is wrong.
+// `text` with the first `old` replaced; throws if `old` is missing, because the test is then wrong.
 inline std::string changed(std::string text, const std::string& old, const std::string& replacement) {
   const std::size_t at = text.find(old);
   if (at == std::string::npos) throw std::logic_error("the deck under test does not hold: " + old);

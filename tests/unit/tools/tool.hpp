@@ -37,7 +37,7 @@ class ToolTest : public ::testing::Test {
   Outcome run(const std::string& command) const {
     const int code = std::system((command + " > " + path("output") + " 2> " + path("errors")).c_str());
     const int status = WIFEXITED(code) ? WEXITSTATUS(code) : -1;
-    // Open MPI may grumble on stderr about the machine: that is not what the tool says.
+    // Open MPI may write about the machine to stderr, which is no output of the tool.
     return {status, status == 0 ? content("output") : content("output") + content("errors")};
   }
 

@@ -9,7 +9,7 @@ from .places import TOOLS
 
 
 def part_of_the_tools(*path):
-    """By its file: a script may have modules of the same name."""
+    """A module of the tools, loaded by its file because a script may have a module of the same name."""
     spec = importlib.util.spec_from_file_location("strut._" + path[-1], os.path.join(TOOLS, *path) + ".py")
     part = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(part)

@@ -24,7 +24,7 @@ class Told:
             sys.stdout.write(text)
 
     def warn(self):
-        """Of whole lines since the last call. Not within write(), where an exception would be lost."""
+        """Issues the warnings in whole lines since the last call. Not within write(), where an exception would be lost."""
         end = self.text.rfind("\n") + 1
         lines, self.warned = self.text[self.warned:end].split("\n"), end
         for line in lines:
