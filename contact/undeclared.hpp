@@ -11,7 +11,8 @@ namespace strut::contact {
 
 struct Undeclared {
   std::int64_t points = 0;  // at surfaces, of all blocks without contact, that are inside others
-  // On one rank, one of its points: local index and blocks, equal for a block with itself; −1 on other ranks.
+  // `point`: on one rank the local index of one of them, −1 on others; there also its blocks, equal for a block with
+  // itself.
   int point = -1, first = -1, second = -1;
 };
 
