@@ -58,7 +58,7 @@ struct PolymerFoam {
   State virgin_state() const { return {.relative_density = initial_density}; }
 
   Moduli moduli() const { return kirchhoff_moduli(1); }
-  // For the Cauchy stress: D(ρ*)/J.
+  // The moduli of the Cauchy stress, D(ρ*)/J.
   Moduli moduli(const State& state) const {
     const double J = determinant(state);
     const Moduli now = kirchhoff_moduli(J);

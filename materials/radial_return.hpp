@@ -131,7 +131,7 @@ class RadialReturn {
     return all < to_rest ? all : to_rest;
   }
 
-  // For Newton iterates outside the bracket.
+  // Replaces Newton iterates outside the bracket.
   static T fallback(const T& left, const T& right, const T& guess) {
     return guess > left && guess < right ? guess : T((left + right) / 2);
   }

@@ -66,7 +66,7 @@ struct Face {
 struct SurfaceLaw {
   double factor = 0.25;        // of the stiffness of a layer one spacing thick
   double largest_overlap = 0;  // of a spacing; 0: no limit
-  // From the two blocks, at set-up.
+  // Set from the two blocks, at set-up.
   double modulus = 0;  // M*, Pa: 1/M* = (1/M₁ + 1/M₂)/2, M of longitudinal waves
   double radius = 0;   // m: largest distance at which a point may see another body
   double spacing = 0;  // m: the mean of the largest spacings of both

@@ -65,7 +65,7 @@ class BoundingVolumes {
   double skin(int n) const { return skin_[n]; }
   double largest_skin() const { return largest_skin_; }
 
-  // For those from n on: not negative if no point of the volume can touch one of `one`.
+  // For the volumes from n on, one per lane: not negative if no point of the volume can touch one of `one`.
   Lanes ruled_out(int n, const BoundingVolume& one, const Reach& reach) const;
 
  private:

@@ -96,7 +96,7 @@ std::string thin_members(const Situation& situation) {
   return text.str();
 }
 
-// By the mean gradient; ordinary points have no F, and quadratic cells a penalty.
+// Concerns points by correspondence only: ordinary points have no F, and the fits of quadratic cells have a penalty.
 std::string flat_families(const Situation& situation) {
   const Body& body = situation.scene.body;
   constexpr double very_flat = 20;  // `flatness`: a tenth of a spacing thick; two layers have 1.3

@@ -32,7 +32,7 @@ struct Snapshot {
 class Archive {
  public:
   static Archive saving_to(Snapshot& into) { return {into, false}; }
-  // From a snapshot that has everything that was saved; throws std::logic_error if something is missing.
+  // Loads from a snapshot that has everything that was saved; throws std::logic_error if something is missing.
   static Archive loading_from(Snapshot& from) { return {from, true}; }
 
   bool loading() const { return restores_; }

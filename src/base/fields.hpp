@@ -127,7 +127,7 @@ class FieldRef {
   const auto* data() const { return std::as_const(field_->values).data(); }
   std::size_t size() const { return field_->values.size(); }
   bool empty() const { return field_->values.empty(); }
-  // From now on the field is in use, on all ranks; the arguments are those of the container's resize().
+  // Takes the field into use, to be called on all ranks; the arguments are those of the container's resize().
   template <class... Room>
   void use(Room&&... room) {
     field_->in_use = true;
@@ -169,7 +169,7 @@ class FieldSet {
   const std::vector<std::unique_ptr<AnyField>>& all() const { return fields_; }
   void resize(std::size_t points);  // the fields of points that are in use
   double bytes() const;
-  // At the group of the points: saves or restores the fields that are kept.
+  // Saves or restores the fields that are kept; the archive must be at the group of the points.
   void serialize(Archive& archive, const Places& places = {});
 
  private:

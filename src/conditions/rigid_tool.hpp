@@ -86,7 +86,7 @@ struct RigidTool {
   // Sets the reaches, from the tool at time t (s) and the body as it was read or as it is: cells that would overlap it
   // there end at its surface. Nodes have none, because those at a surface lie on it.
   void set_reaches(double t, const Body& body, BodyAt at);
-  // At the group of all owned points: the reaches, and a free motion.
+  // Save or restore the reaches, and a free motion, too; the archive must be at the group of all owned points.
   void serialize_reaches(Archive& archive, const std::string& name);
   void serialize(Archive& archive, const std::string& name, int owned);
 

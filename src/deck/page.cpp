@@ -68,7 +68,7 @@ bool alike(const Key& one, const Key& other) {
          one.meaning == other.meaning;
 }
 
-// With each single X of a name or meaning replaced: "Travel X", "Normal_X", "along X as".
+// A name or meaning with each single X replaced by the axis: "Travel X", "Normal_X", "along X as".
 std::string along(const std::string& text, char axis) {
   std::string other = text;
   const auto letter = [&text](std::size_t i) {

@@ -17,7 +17,7 @@ struct TimeOfImpulse {
 void add_period_work(const Domain& domain, const std::vector<Vector>& forces, const TimeOfImpulse& at,
                      ImpulseWork& work);
 
-// From t over dt (s) between equilibria, J. `before`, `after`: the forces at these times.
+// The work from t over dt (s) between equilibria, J. `before`, `after`: the forces at these times.
 double period_work(const Domain& domain, const std::vector<Vector>& before, const std::vector<Vector>& after, double t,
                    double dt);
 

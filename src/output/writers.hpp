@@ -55,7 +55,7 @@ class History {
  public:
   History(const deck::Deck& deck, const OutputVariables& variables);
 
-  // From now on rows are also kept there, which must outlive this; before open().
+  // Keeps the rows there, too; `rows` must outlive this object. Call it before open().
   void keep_rows(HistoryRows* rows) { rows_ = rows; }
   HistoryRows* kept_rows() const { return rows_; }
   void open(const Body& body);  // as FieldWriter::open

@@ -24,7 +24,7 @@ class StartState {
   // solver of the scene must then be ToBeRestored, and gets the other one's steps.
   bool goes_on() const { return goes_on_; }
   void go_on(CentralDifference& solver);
-  // In both cases.
+  // Call it whether or not steps go on.
   void begin(QuasiStatic& solver);
 
  private:

@@ -30,8 +30,8 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud);
 std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud);
 
-// With families that are boxes: how many cells each reaches to either side along each axis. Peridigm rounds the horizon
-// to cells, so that half a cell more is one more.
+// The number of cells that a family that is a box reaches to either side along each axis: the horizon rounded to whole
+// cells, as in Peridigm.
 std::array<int, 3> box_reach(const deck::Grid& grid, const deck::Block& section);
 
 // Collective. A warning if the mass of points at nodes differs from that of the mesh: a node shared by blocks of two

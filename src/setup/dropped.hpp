@@ -17,7 +17,7 @@ struct Dropped {
   std::int64_t parts = 0, points_cut_off = 0;
 };
 
-// For the points of this rank, by id: the piece that each is in.
+// Id and piece of each point of this rank, by id.
 using PiecesOfPoints = std::vector<std::pair<std::int64_t, std::int64_t>>;
 PiecesOfPoints pieces_of_points(const Domain& domain);  // collective
 

@@ -63,7 +63,7 @@ class Search {
       if (bonds_[cloud_.blocks[i]].body == plane_.body) visit(i);
     }
   }
-  // For a node, in spacings.
+  // A node's in spacings, an element's in units of the extent of its cell.
   double distance(std::size_t i) const {
     const double in_m = std::abs(plane_.distance(cloud_.positions[i]));
     if (cloud_.at == PointsAt::nodes) return in_m / cloud_.spacings[i];

@@ -11,7 +11,6 @@
 
 namespace strut {
 
-// Sends records to given ranks.
 class Communicator;
 
 // Collective. `width` doubles per record; the k-th one goes to ranks[k], which ascend. Returns the records received by

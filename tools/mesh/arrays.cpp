@@ -44,7 +44,7 @@ class ArraysReader {
   [[noreturn]] void fail(const std::string& what) const { throw Error(source_ + ": " + what); }
   [[noreturn]] void fail_here(const std::string& what) const { fail(user_ + what); }
 
-  // Without its end; text longer than any header is data left over by a wrong count.
+  // The next line without its end; text longer than any header is data left over by a wrong count.
   std::string line() {
     std::string text;
     char c = 0;

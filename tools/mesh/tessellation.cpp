@@ -122,7 +122,7 @@ struct Cell {
   Vector vertex(int n) const { return {vertices[3 * n], vertices[3 * n + 1], vertices[3 * n + 2]}; }
 };
 
-// From the edge into a film: across the edge, towards the middle of the face.
+// Unit vector from the edge into a film: across the edge, towards the middle of the face.
 Vector film_of(const Edge& edge, const Vector& middle) {
   const Vector along = (edge.b - edge.a).normalized(), to = middle - edge.a;
   return (to - to.dot(along) * along).normalized();

@@ -9,7 +9,7 @@ namespace {
 
 using Triple = Eigen::Array3i;
 
-// In the order of other bodies: zmin and zmax first.
+// The faces, in the order of other bodies: zmin and zmax first.
 struct Face {
   const char* name;
   int axis;

@@ -112,7 +112,7 @@ def bodies_in(surface, low, edge, shape):
 
 
 def inside_of(surface, low, edge, shape):
-    """Whether the middle of each voxel (z, y, x) is inside."""
+    """True for each voxel (z, y, x) whose middle is inside."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkImagingStencil import vtkImageStencilToImage, vtkPolyDataToImageStencil
 

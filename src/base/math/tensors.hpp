@@ -38,7 +38,6 @@ inline Tensor to_tensor(const Symmetric& s) {
   return t;
 }
 
-// The symmetric part of t.
 inline Symmetric symmetric_part(const Tensor& t) {
   return {t(0, 0), t(1, 1), t(2, 2), 0.5 * (t(0, 1) + t(1, 0)), 0.5 * (t(1, 2) + t(2, 1)), 0.5 * (t(2, 0) + t(0, 2))};
 }

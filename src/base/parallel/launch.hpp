@@ -14,14 +14,15 @@ struct Launch {
   int number = 0;  // of this process, from 0
 };
 
-// From mpirun of Open MPI, or of MPICH and its relatives, else from Slurm's srun, whose tasks may be the mpiruns.
+// By mpirun of Open MPI, or of MPICH and its relatives, else by Slurm's srun, whose tasks may be processes of mpirun.
 Launch launch_of_process();
 
 // Why `ranks` of a process are refused: a launcher of another MPI starts each process as a run of one rank, and all
 // would do the same work. "" if it is none. `command`: of the process, for the message.
 std::string wrong_launcher(const Launch& launch, int ranks, const std::string& command);
 
-// The integer in a word of a command line or of the environment; nullopt if the word is anything else, or exceeds an int.
+// The integer in a word of a command line or of the environment; nullopt if the word is anything else, or exceeds an
+// int.
 inline std::optional<int> whole_number(std::string_view word) {
   int number = 0;
   const char* const end = word.data() + word.size();

@@ -28,7 +28,7 @@ std::vector<std::string> names_where(Wanted wanted) {
   return names;
 }
 
-// From two valid constants.
+// The moduli from two valid constants.
 materials::Moduli moduli(const Values& material) {
   const bool has_bulk = material.has(bulk), has_shear = material.has(shear);
   const bool has_young = material.has(young), has_poisson = material.has(poisson);

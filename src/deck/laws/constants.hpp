@@ -14,10 +14,10 @@ std::vector<Key> constants_keys();
 
 double read_density(const Values& material);  // kg/m³
 
-// From any two of the elastic constants; reports if there are not two, or if they contradict each other.
+// The moduli from any two of the elastic constants; reports if there are not two, or if they contradict each other.
 materials::Moduli checked_moduli(const Values& material, Problems& problems);
 
-// From Young's modulus (Pa) and Poisson's ratio.
+// The moduli from Young's modulus (Pa) and Poisson's ratio.
 materials::Moduli moduli_from(double E, double nu);
 
 }  // namespace strut::deck

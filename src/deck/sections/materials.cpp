@@ -12,7 +12,7 @@ namespace {
 
 const char* const name = "Materials";
 
-// For every law by correspondence.
+// A key of every law by correspondence.
 const ChoiceKey<Formulation> formulation(
     {.name = "Formulation",
      .fallback = "Correspondence",
@@ -22,7 +22,6 @@ const ChoiceKey<Formulation> formulation(
          "stabilization, and its neighbors are elements that share a node, or nodes that share an element."},
     {{"Correspondence", Formulation::correspondence}, {"Quadratic Correspondence", Formulation::quadratic}});
 
-// The stabilizations by name.
 std::vector<std::pair<std::string, Stabilization>> stabilizations() {
   std::vector<std::pair<std::string, Stabilization>> all;
   for_each_stabilization([&all]<class S>(const S& one) { all.emplace_back(S::name, one); });

@@ -19,7 +19,7 @@ struct Material {
   double density = 0;  // kg/m³
   Formulation formulation{};
   materials::AnyLaw law;  // ordinary: Elastic
-  // For correspondence.
+  // Only with laws by correspondence:
   Stabilization stabilization = NoStabilization();  // without its coefficient
   std::optional<double> stabilization_coefficient;
   double linear_viscosity{}, quadratic_viscosity{};

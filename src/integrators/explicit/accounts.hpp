@@ -52,7 +52,7 @@ class EnergyAccount {
 // Reactions: the impulses of conditions on the points of this rank.
 class ReactionAccount {
  public:
-  // From now on, adds up impulses of this number of conditions of the deck.
+  // Starts to add up the impulses of this number of conditions of the deck.
   void gather(int conditions);
   ReactionImpulses none() const { return ReactionImpulses(static_cast<int>(forces_.size())); }
 

@@ -244,7 +244,6 @@ std::vector<std::uint8_t> CentralDifference::pushed_now() const {
   return pushed_points(body_, conditions_, contact_, body_.velocity, time_, dt());
 }
 
-// Chooses the time-step levels anew.
 void CentralDifference::reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed) {
   length_.begin_levels();
   if (!control_.subcycling || control_.fixed_dt > 0) return;

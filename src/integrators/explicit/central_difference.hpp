@@ -47,7 +47,7 @@ class CentralDifference {
   // Before the first step: the work so far is that of a solver before this one.
   void go_on_from(const Ledger& before);
 
-  // From now on, adds up the impulses of this number of conditions of the deck.
+  // Starts to add up the impulses of this number of conditions of the deck.
   void gather_reactions(int conditions) { reactions_.gather(conditions); }
   // Collective; after advance_velocity(). Reaction forces at time(), N: impulses divided by their time intervals.
   Reactions reactions() const { return reactions_.reactions(body_.domain.communicator); }

@@ -34,7 +34,7 @@ class MultiTimeStepping {
   // A step has 2^level_count() substeps. Times of level m come every Δt/2^m.
   int level_count() const { return static_cast<int>(levels_.size()); }
 
-  // In a step, the mean over all points of all ranks.
+  // Stress updates of a point in a step, the mean over all points of all ranks.
   double updates_a_point() const { return updates_; }
 
   // Time-step levels of the motion of the owned points: that of the stiffest point that moves each one. Empty: no

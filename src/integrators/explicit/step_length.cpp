@@ -71,7 +71,8 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
   next_time_ = dt_ == left ? final_time : time + dt_;
 }
 
-// As a fraction of the critical time step. While bonds break, its bound fluctuates with the families of a few points.
+// The longest step that is kept, as a fraction of the critical time step, whose bound fluctuates with the families of a
+// few points while bonds break.
 double StepLength::longest_stay(bool bonds_may_break) const {
   constexpr double most = 0.95, slack = 1.05;
   const double safety = control_.safety_factor, limit = std::max(most, safety);
@@ -89,8 +90,7 @@ double StepLength::longest_step(double contact_stiffness, bool bonds_may_break, 
 }
 
 PresentStep StepLength::present(bool bonds_may_break) const {
-  return {dt_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0,
-          longest_stay(bonds_may_break) / control_.safety_factor};
+  return {dt_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0, longest_stay(bonds_may_break) / control_.safety_factor};
 }
 
 void StepLength::take_levels(const MultiTimeStepping& chosen) {

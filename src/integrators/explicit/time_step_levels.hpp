@@ -8,7 +8,6 @@
 
 namespace strut {
 
-// The present time step.
 struct PresentStep {
   double bound;  // 1/s, the frequency bound that it was chosen for; 0: none yet
   double slack;  // factor by which the bound may grow

@@ -87,7 +87,7 @@ ExodusResult read_result(const std::filesystem::path& file);
 // The time of its last frame, s; nullopt if there is no such file, no frame, or if it is damaged.
 std::optional<double> last_time_of_result(const std::filesystem::path& file);
 
-// For HEX8, TET4 and SPHERE; throws Error for other types.
+// Knows HEX8, TET4 and SPHERE; throws Error for other types.
 int nodes_per_element(const std::string& type);
 
 // The material in an element that is partly filled, or that has absorbed the material of a neighbor.

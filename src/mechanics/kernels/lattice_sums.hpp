@@ -129,7 +129,7 @@ class LatticeSums {
   // must not change meanwhile.
   void moments(const Displacements& u, const Take& take);
   void squares(const Displacements& u, const Take& take);
-  // For the stabilization at `kind` of the variant. `gradients`: F, or δF of a field, and C.
+  // The residuals of the stabilization at `kind` of the variant. `gradients`: F, or δF of a field, and C.
   void residuals(std::size_t kind, const Displacements& u, const std::vector<GradientState>& gradients,
                  const Take& take);
   void forces(const Displacements& u, const std::vector<ForceState>& states, const Take& take);

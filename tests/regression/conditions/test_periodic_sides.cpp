@@ -396,7 +396,7 @@ TEST(PeriodicSides, ThatMoveBreakBondsAfterACheckpointAsWithoutOne) {
   }
 }
 
-// ---- What is refused -----------------------------------------------------------------------------------------------
+// ---- Refusals ------------------------------------------------------------------------------------------------------
 
 std::string error_of(Parts parts) {
   const RunFolder folder;

@@ -186,7 +186,7 @@ TEST(DialectOfPeridigm, SlowCompressionOfAGrid) {
   expect_the_same(folder, theirs, ours);
 }
 
-// ---- What only its decks have --------------------------------------------------------------------------------------
+// ---- Keys of Peridigm's decks alone --------------------------------------------------------------------------------
 
 std::string grid_of(const std::vector<int>& points, const std::vector<double>& lengths) {
   const char* axes[] = {"X", "Y", "Z"};

@@ -610,7 +610,7 @@ TEST(Deck, ProblemsCanBeCollectedInsteadOfThrown) {
   EXPECT_EQ(deck.blocks.size(), 2u);
 }
 
-// ---- What a deck says otherwise than another ------------------------------------------------------------------------
+// ---- Differences between two decks ----------------------------------------------------------------------------------
 
 TEST(Changes, OfWritingAloneAreNone) {
   std::string other = changed(full_deck, R"(type="int" value="8960")", R"(type="double" value="8.96e3")");

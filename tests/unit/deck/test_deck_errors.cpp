@@ -24,7 +24,7 @@ TEST_P(OneProblem, IsReported) {
 
 std::string name_of(const testing::TestParamInfo<Case>& info) { return info.param.name; }
 
-// ---- What one key alone can tell -----------------------------------------------------------------------------------
+// ---- Errors of one key ---------------------------------------------------------------------------------------------
 
 const std::vector<Case> values = {
     {"BoolForReal", R"(type="int" value="8960")", R"(type="bool" value="true")",
@@ -218,7 +218,7 @@ const std::vector<Case> names = {
 };
 INSTANTIATE_TEST_SUITE_P(Names, OneProblem, testing::ValuesIn(names), name_of);
 
-// ---- What takes two keys -------------------------------------------------------------------------------------------
+// ---- Errors of two keys --------------------------------------------------------------------------------------------
 
 const std::vector<Case> pairs = {
     {"FinalBeforeInitial", R"(value="3e-4")", R"(value="1e-4")",
@@ -354,7 +354,7 @@ TEST(DeckErrors, TablesAreChecked) {
       "Yield Stress: '5e+07' is not the first of Hardening > Stresses, 6e+07; expected the same, or no Yield Stress");
 }
 
-// ---- What a deck may do --------------------------------------------------------------------------------------------
+// ---- Valid decks ---------------------------------------------------------------------------------------------------
 
 TEST(DeckErrors, NothingIsReadThatTheDeckDoesNotName) {
   const DeckFolder folder;

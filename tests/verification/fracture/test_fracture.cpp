@@ -93,7 +93,7 @@ void hold(Body& body, Fracture& fracture) {
   advance_stress_and_force(body, 1e-9, false, &fracture);
 }
 
-// ---- What a flat cut dissipates ------------------------------------------------------------------------------------
+// ---- Dissipation of a flat cut -------------------------------------------------------------------------------------
 
 // With K = 5/3 G, where the dilatation stores nothing, the bonds alone do: 25/8 G s² δ for a sphere that is a
 // continuum.
@@ -271,7 +271,7 @@ TEST(BondEnergy, ABondWhoseBreakWouldGiveEnergyHolds) {
   EXPECT_EQ(damage_in_the_middle(2 + 16.0 / 18), 0);
 }
 
-// ---- What is conserved ---------------------------------------------------------------------------------------------
+// ---- Conservation --------------------------------------------------------------------------------------------------
 
 struct Outcome : Conservation {
   double damage = 0;
@@ -505,7 +505,7 @@ TEST(Fracture, KeepsTheBalanceWithRandomDamage) {
   }
 }
 
-// ---- What a crack takes that grows slowly --------------------------------------------------------------------------
+// ---- Dissipation of a crack that grows slowly ----------------------------------------------------------------------
 
 // A notched strip of 30 × 4 × 20 points whose edges are turned apart, so that the offered energy falls along the path:
 // a crack follows slowly.

@@ -225,7 +225,7 @@ TEST(Stability, AMillionStepsKeepTheEnergy) {
   EXPECT_LT(drift, 1e-4);
 }
 
-// ---- What must be said ---------------------------------------------------------------------------------------------
+// ---- Warnings and errors -------------------------------------------------------------------------------------------
 
 TEST(Stability, APointTurnedInsideOutIsNamed) {
   const Communicator world;

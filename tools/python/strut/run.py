@@ -13,7 +13,7 @@ live = weakref.WeakSet()
 
 
 class Told:
-    """What a run says: kept, and shown as it comes or, without progress, only its warnings."""
+    """The output of a run: kept, and shown at once with progress; without progress, only its warnings are shown."""
 
     def __init__(self, progress):
         self.progress, self.text, self.warned = progress, "", 0

@@ -88,7 +88,7 @@ def on_first(source, action):
 
 
 def tool(name, *words, **options):
-    """What the tool says; strut.Error with its message if it fails."""
+    """The output of the tool; raises strut.Error with its message if it fails."""
     command = [sys.executable, os.path.join(TOOLS, name), *map(os.fspath, words)]
     for key, value in options.items():
         if value is None or value is False:
