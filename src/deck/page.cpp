@@ -257,7 +257,7 @@ const char* const introduction = R"(# Keys of a deck
 
 Generated from the schema in `src/deck`; do not edit by hand. SI units throughout.
 
-A deck is an XML file of nested sections, `<ParameterList name="…">`, and keys, `<Parameter name="…" type="…" value="…"/>`, or the same in YAML. `Blocks > (any name) > Horizon` is the key `Horizon` in a section of any name in the section `Blocks`. Unknown keys and sections, and values outside their range, are errors, reported together. In brackets: the value (a real number unless stated), its unit, and `required` or the default.
+A deck is an XML file of nested sections, `<ParameterList name="…">`, and keys, `<Parameter name="…" type="…" value="…"/>`, or the same in YAML. `Blocks > (any name) > Horizon` is the key `Horizon` in a section of any name in the section `Blocks`. In brackets: the value (a real number unless stated), its unit, and `required` or the default.
 
 - bool: type `bool`, `true` or `false`.
 - integer: type `int`, or `string` with an integer.
@@ -278,7 +278,7 @@ std::string expressions() {
          "between and "
          "constant beyond. Statements may assign to `value`: `value = 0; if (t &lt; 1e-4) { value = 5*sin(x); }`, with "
          "`if`, `else` and variables (`double r = x*x;`), without loops. A sign and a power need brackets, `-(x^2)` or "
-         "`(-x)^2`. At most 10,000 characters. In XML `<` is written `&lt;` and `&` `&amp;`.\n";
+         "`(-x)^2`. In XML `<` is written `&lt;` and `&` `&amp;`.\n";
 }
 
 bool same_word(const std::string& one, const std::string& other) {

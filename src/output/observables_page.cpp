@@ -12,8 +12,8 @@ The section `Output` of a deck writes these fields of the points. The section `H
 
 - `Max_Displacement`, `Min_Pressure`: extreme over all points; of several components, of the root of the sum of their squares.
 - `Max_Displacement(foam)`: extreme over the points of a node set or block. `Max_Displacement_Z`, `Min_Cauchy_Stress_ZZ`: extreme of a component.
-- `Mean_Displacement_Z(top)`: mean, weighted by reference volumes.
-- `Mean_Velocity_Z(slices)`: mean of each layer of the section `slices` in `History` > `Profiles`, in the columns `Mean_Velocity_Z(slices 1)`, ….
+- `Mean_Displacement_Z(top)`, `Sum_Force_Z(top)`: mean, weighted by reference volumes, and sum over the points.
+- `Mean_Velocity_Z(slices)`: mean of each layer of the section `slices` in `History` > `Profiles`.
 - `Contact_Force_X(foam:plate)`, `_Y`, `_Z`: contact force on the block `foam` from the block `plate`, with friction, N.
 - `Reaction_X(wall)`, `_Y`, `_Z`: force of the condition `wall` on the body, N.
 - `Crack_Tip(notch)`, `Crack_Speed(notch)`: length of the crack `notch` in `History` > `Cracks` along its direction, m, and its slope over the last rows, m/s.
@@ -24,13 +24,22 @@ X and y are the reference and the current position of a point, F is its deformat
 
 )";
 
+// " (Pa, 6): σ."
+std::string described(const Observable& one) {
+  return " (" + one.unit + (one.components > 1 ? ", " + std::to_string(one.components) : "") +
+         (one.nodal ? ", nodal" : "") + "): " + one.meaning + ".\n";
+}
+
 }  // namespace
 
 std::string observables_page() {
-  std::string text = introduction;
-  for (const Observable& o : observables_of_all_laws()) {
-    text += "- `" + o.name + "` (" + o.unit + (o.components > 1 ? ", " + std::to_string(o.components) : "") +
-            (o.nodal ? ", nodal" : "") + "): " + o.meaning + ".\n";
+  std::string text = introduction, names;
+  const auto all = observables_of_all_laws();
+  for (std::size_t i = 0; i < all.size(); ++i) {  // neighbors with one description share a row
+    names += (names.empty() ? "`" : ", `") + all[i].name + "`";
+    if (i + 1 < all.size() && described(all[i + 1]) == described(all[i])) continue;
+    text += "- " + names + described(all[i]);
+    names.clear();
   }
   return text;
 }

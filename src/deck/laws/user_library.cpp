@@ -12,9 +12,8 @@ const TextKey library({.name = "Library", .meaning = "The shared object, by its 
 const ChoiceKey<LibraryInterface> interface(
     {.name = "Interface",
      .fallback = "strut",
-     .meaning =
-         "Interface of the function: materials/strut_law.h, or a user subroutine of Abaqus, compiled with 8-byte "
-         "reals. It is called in the unrotated frame: DROT is 1, DFGRD0 and DFGRD1 are stretches."},
+     .meaning = "Interface of the function: materials/strut_law.h, or a user subroutine of Abaqus. It is "
+                "called in the unrotated frame: DROT is 1, DFGRD0 and DFGRD1 are stretches."},
     {{"strut", LibraryInterface::strut}, {"UMAT", LibraryInterface::umat}, {"VUMAT", LibraryInterface::vumat}});
 const OptionalKey<std::string> function_name(
     {.name = "Function", .meaning = "Its name in the library; without it strut_law, umat_ or vumat_."});
@@ -35,8 +34,7 @@ Section user_library_section() {
   return {.name = "User Library",
           .meaning =
               "A law from a shared object. The elastic constants are those of its undeformed state: they bound "
-              "the time step. A law that counts its energies (SSE, SPD) shares the change of volume in quadratic "
-              "cells where it has flowed.",
+              "the time step.",
           .keys = {library, interface, function_name, constants, states}};
 }
 

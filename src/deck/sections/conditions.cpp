@@ -38,9 +38,8 @@ Section prescribed_temperature() {
   of_unit.unit = "K";
   return {.name = "Prescribed Temperature",
           .meaning =
-              "Temperature T at every time: materials with a Thermal Expansion Coefficient α have the thermal strain "
-              "α (T − T₀), T₀ at the initial time (of the first solver; of the first run by Start From). Where several "
-              "overlap, the last one counts.",
+              "Temperature T at every time, for materials with a Thermal Expansion Coefficient. Where several overlap, "
+              "the last one counts.",
           .keys = {of_unit}};
 }
 

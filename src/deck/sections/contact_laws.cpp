@@ -60,9 +60,7 @@ const RealKey largest_overlap(
 
 Section surface() {
   return {.name = "Surface",
-          .meaning =
-              "Contact between smooth surfaces at the faces of the cells, without a constant to choose. It starts when "
-              "the smoothed volume fraction of the other body at a point exceeds its value at a flat face.",
+          .meaning = "Contact between smooth surfaces at the faces of the cells, without a constant to choose.",
           .keys = {stiffness_factor, largest_overlap}};
 }
 

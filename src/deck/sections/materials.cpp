@@ -17,9 +17,9 @@ const ChoiceKey<Formulation> formulation(
     {.name = "Formulation",
      .fallback = "Correspondence",
      .meaning =
-         "Deformation gradient: constant at a point (Silling et al. 2007), or linear over the cell of the point, with "
-         "stress at four integration points. Quadratic is for struts and plates a few points thick; it needs no "
-         "stabilization, and its neighbors are elements that share a node, or nodes that share an element."},
+         "Deformation gradient: constant at a point (Silling et al. 2007), or linear over the cell of the point, for "
+         "struts and plates a few points thick, without stabilization; neighbors are then elements that share a node, "
+         "or nodes that share an element."},
     {{"Correspondence", Formulation::correspondence}, {"Quadratic Correspondence", Formulation::quadratic}});
 
 std::vector<std::pair<std::string, Stabilization>> stabilizations() {
@@ -39,14 +39,14 @@ const OptionalKey<double> stabilization_coefficient(
     {.name = "Stabilization Coefficient",
      .range = not_negative,
      .meaning = "Stiffness of the springs in units of (λ + 2μ)/(tr K/3), K the shape tensor. Default 0.01; 0.3 in "
-                "blocks whose bonds break by stretch. It is not Peridigm's Hourglass Coefficient."});
+                "blocks whose bonds break by stretch."});
 
 const RealKey linear_viscosity(
     {.name = "Linear Viscosity",
      .range = not_negative,
      .fallback = "0",
-     .meaning = "b₁ of the artificial viscosity, which spreads shocks over some points: a pressure ρ l |D| (b₁ c + b₂² "
-                "l |D|) where the volume shrinks at the rate D. Usual: 0.06."});
+     .meaning = "b₁ of the artificial viscosity, which spreads shocks over some points (docs/theory.md). Usual: "
+                "0.06."});
 
 const RealKey quadratic_viscosity(
     {.name = "Quadratic Viscosity", .range = not_negative, .fallback = "0", .meaning = "b₂. Usual: 1.2."});

@@ -25,17 +25,16 @@ const RealKey minutes({.name = "Minutes",
 const BooleanKey resumes(
     {.name = "Restart",
      .fallback = "false",
-     .meaning = "Peridigm's key. true: a run that would replace a checkpoint is refused (`strut --continue deck.xml` "
-                "resumes from it), and so is one without a checkpoint whose Initial Time is not 0."});
+     .meaning = "Peridigm's key. true: a run that would replace a checkpoint is refused, and so is one without a "
+                "checkpoint whose Initial Time is not 0."});
 
 }  // namespace
 
 Section restart_section() {
   return {.name = name,
           .meaning =
-              "Checkpoints, from which `strut --continue deck.xml` resumes a run on any number of ranks. They are "
-              "written at these times, at a signal, and at the end, so that the final time can be extended and another "
-              "run can start from there (Start From). Without this section: every " +
+              "Checkpoints, from which `strut --continue deck.xml` resumes a run and another run can begin (Start "
+              "From). They are written at these times, at a signal, and at the end. Without this section: every " +
               *minutes.fallback + " minutes, and at the end of a run with the section Output.",
           .keys = {enabled, file, when.frequency, when.interval, minutes, resumes}};
 }

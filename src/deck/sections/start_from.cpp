@@ -9,8 +9,7 @@ namespace {
 const char* const name = "Start From";
 
 const TextKey checkpoint({.name = "Checkpoint",
-                          .meaning = "Path of the other run's checkpoint, relative to the working folder. A run whose "
-                                     "deck has the section Output or Restart keeps the last one."});
+                          .meaning = "Path of the other run's checkpoint, relative to the working folder."});
 
 const OptionalKey<bool> keeps_velocities(
     {.name = "Keep Velocities",
@@ -25,10 +24,7 @@ Section start_from_section() {
               "Bodies begin as another run of the same mesh, blocks, materials, symmetry planes and periodic sides has "
               "left them, on any number of ranks: positions, velocities, stress and state of the laws, temperature, "
               "thermal strain, broken bonds, friction of surfaces. Conditions, contact, solver and output are those of "
-              "this deck; "
-              "times begin at Initial Time, work at zero. Where that is the checkpoint's time, and solver and contact "
-              "are the same, steps go on as if the other run had not ended (initial velocities of the same "
-              "conditions are then past).",
+              "this deck; times begin at Initial Time, work at zero.",
           .keys = {checkpoint, keeps_velocities}};
 }
 

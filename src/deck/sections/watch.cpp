@@ -26,7 +26,7 @@ const RealKey balance_error(
      .fallback = "0.5",
      .meaning =
          "Limit of the error of the energy balance over the largest energy; a fifth of this where energy is created. "
-         "Checked at each frame and row after the first ten, and at the end. A warning comes from 1 % on."});
+         "A warning comes from 1 % on."});
 
 const RealKey smallest_step({.name = "Smallest Step",
                              .range = {.low = 0, .high = 1},
@@ -44,7 +44,7 @@ const RealKey interpenetration(
      .range = {.low = 0, .high = 1},
      .fallback = "0.01",
      .meaning = "Limit of interpenetration: points of two bodies with declared contact that are inside the other body, "
-                "over the points of the smaller one. Checked 200 times in a run. 1: no limit."});
+                "over the points of the smaller one. 1: no limit."});
 
 }  // namespace
 
