@@ -278,7 +278,8 @@ std::string expressions() {
          "between and "
          "constant beyond. Statements may assign to `value`: `value = 0; if (t &lt; 1e-4) { value = 5*sin(x); }`, with "
          "`if`, `else` and variables (`double r = x*x;`), without loops. A sign and a power need brackets, `-(x^2)` or "
-         "`(-x)^2`. At most 10,000 characters. In XML `<` is written `&lt;` and `&` `&amp;`.\n";
+         "`(-x)^2`. At most 10,000 characters, without the numbers of tables. In XML `<` is written `&lt;` and `&` "
+         "`&amp;`.\n";
 }
 
 bool same_word(const std::string& one, const std::string& other) {
