@@ -169,7 +169,7 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
     const std::string name = "all points > tool_" + std::to_string(tool) + "_reach";
     return changes_.same_conditions && std::ranges::find(parts.missing, name) == parts.missing.end();
   };
-  begin_from_here(deck, !goes_on_, knows_reaches, scene, communicator_);
+  begin_from_here(deck, {goes_on_, changes_.same_conditions}, knows_reaches, scene, communicator_);
   return (parts.note.empty() ? "" : "WARNING: " + parts.note + "\n") + story(deck, scene);
 }
 

@@ -223,20 +223,21 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
   take_off_what_is_beyond_ends(scene.conditions, scene.body);
 }
 
-void begin_from_here(const deck::Deck& deck, bool with_initial_velocities,
-                     const std::function<bool(int)>& knows_reaches, Scene& scene, const Communicator& communicator) {
+void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::function<bool(int)>& knows_reaches,
+                     Scene& scene, const Communicator& communicator) {
   const double t = deck.solver.initial_time;
   deck::Problems problems;
   PointsOfConditions points;
   for (const deck::Condition& one : deck.conditions) {
     points.push_back(points_of(scene.body.domain.cloud, one.node_set));
     const auto* initial = std::get_if<InitialVelocity>(&one.kind);
-    if (initial && with_initial_velocities && !deck.next_solver)
-      initial->set_initial_state(points.back(), t, scene.body);
+    if (initial && !kept.steps && !deck.next_solver) initial->set_initial_state(points.back(), t, scene.body);
   }
   set_reference_temperatures(scene.body, t);  // of those that were not heated before
   scene.warnings += sudden_expansion(deck, scene.body);
-  scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
+  // Where all goes on, a point that is not where its condition has it was pushed aside: a later condition wins.
+  if (!kept.steps || !kept.conditions)
+    scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   scene.conditions.visit([&]<class Type>(Type& one) {
     if constexpr (std::is_same_v<Type, RigidTool>) {

@@ -17,10 +17,15 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
 // as it was read, before the deck's initial time where these conditions follow others.
 void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, const Communicator& communicator);
 
+// What goes on as in the other run.
+struct Kept {
+  bool steps = false, conditions = false;
+};
+
 // Collective. The same scene, whose body is now in the state of another run (Start From): gives it initial velocities,
-// unless they are that run's, and tools their reaches, unless knows_reaches(its index in the deck). Throws Error on all
+// unless its steps go on, and tools their reaches, unless knows_reaches(its index in the deck). Throws Error on all
 // ranks for displacements that would jump.
-void begin_from_here(const deck::Deck& deck, bool with_initial_velocities,
-                     const std::function<bool(int)>& knows_reaches, Scene& scene, const Communicator& communicator);
+void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::function<bool(int)>& knows_reaches,
+                     Scene& scene, const Communicator& communicator);
 
 }  // namespace strut

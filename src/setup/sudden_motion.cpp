@@ -168,12 +168,14 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
     const Function& value = displacement_of(deck.conditions[c])->value;
     std::ostringstream text;
     text << value.evaluate(found[c].one[0], found[c].one[1], found[c].one[2], t) << " m at the initial time, t = " << t
-         << " s, where the body is undeformed, at " << place_text(found[c].one) << " and " << found[c].count - 1
-         << " other points";
+         << " s, where the body is displaced otherwise, at " << place_text(found[c].one) << " and "
+         << found[c].count - 1 << " other points";
     if (deck.solver.quasi_static) {
       told << value.path() << " is " << text.str() << ": the first load step takes all of it\n";
     } else {
-      problems.add(value.path(), text.str() + "; expected 0 m there, or the points would be thrown within one step");
+      problems.add(value.path(), text.str() +
+                                     "; expected the displacement that these points have then (0 m in the mesh), or "
+                                     "they would be thrown within one step");
     }
   }
   return told.str();

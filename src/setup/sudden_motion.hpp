@@ -9,8 +9,8 @@
 
 namespace strut {
 
-// Collective. Displacements that are not zero at the initial time, when bodies are undeformed: with explicit steps an
-// error, the same on all ranks; else a warning.
+// Collective. Displacements at the initial time that points do not have then (0 of an undeformed body): with explicit
+// steps an error, the same on all ranks; else a warning.
 std::string check_initial_displacements(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
                                         deck::Problems& problems);
 

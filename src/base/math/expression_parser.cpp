@@ -46,16 +46,17 @@ class ExpressionParser {
   explicit ExpressionParser(const std::string& text) : text_(text) {}
 
   Expression parse() {
-    if (text_.size() > Expression::longest) {
-      throw Error("it has " + std::to_string(text_.size()) + " characters, at most " +
-                  std::to_string(Expression::longest) + " are possible");
-    }
     if (mentions_value()) {
       while (!at_end()) statement();
     } else {
       expression();
       if (!at_end()) fail("expected an operator");
       emit(Do::pop_variable, static_cast<int>(Given::value));
+    }
+    const std::size_t executed = text_.size() - in_tables_;
+    if (executed > Expression::longest) {
+      throw Error("it has " + std::to_string(executed) + " characters besides the numbers of tables, at most " +
+                  std::to_string(Expression::longest) + " are possible");
     }
     return std::move(result_);
   }
@@ -331,6 +332,7 @@ class ExpressionParser {
     LookUp found;
     expect("(");
     expression();
+    const std::size_t first = at_;
     do {
       expect(",");
       const std::size_t here = at_;
@@ -342,6 +344,7 @@ class ExpressionParser {
       expect(",");
       found.values.push_back(constant());
     } while (next() == ',');
+    in_tables_ += at_ - first;
     expect(")");
     emit(Do::look_up, static_cast<int>(result_.tables_.size()));
     result_.tables_.push_back(std::move(found));
@@ -387,6 +390,7 @@ class ExpressionParser {
   const std::string& text_;
   std::size_t at_ = 0;
   int depth_ = 0;
+  std::size_t in_tables_ = 0;  // characters of their numbers, which a look-up does not pass one by one
   std::vector<Variable> variables_{{"x"}, {"y"}, {"z"}, {"t"}, {"value"}};
   Expression result_;
 };

@@ -135,6 +135,17 @@ class Starts(InFolder):
                     conditions = {**deck["Boundary Conditions"], **images}
                     self.goes_on(but(deck, Boundary_Conditions=conditions, Solver=solver), 12, block.mesh())
 
+    def test_points_that_a_tool_has_pushed_from_where_they_are_held_go_on_with_the_same_bits(self):
+        deck = block.deck()
+        held = {**deck["Boundary Conditions"]["foot"], "Node Set": "block_xmax", "Coordinate": "x"}
+        push = {"Type": "Rigid Plane", "Point": [4 * SPACING, 0, 0], "Normal": [-1, 0, 0], "Travel X": "-10*t"}
+        deck = but(deck, Boundary_Conditions={**deck["Boundary Conditions"], "held": held, "push": push})
+        run = self.goes_on(deck, 12, block.mesh())
+        self.assertLess(run.whole("Displacement")[:, 0].min(), -1e-5)  # 10 m/s in 4e-6 s, less the gap at the start
+        other = start(deck, "first.restart", run.history["Time"][0], False)  # at rest: not the steps of the other run
+        with self.assertRaisesRegex(strut.Error, "held > Value: 0 m at the initial time.*displaced otherwise"):
+            strut.run(other, block.mesh())
+
     def test_warmed_bodies_go_on_with_the_same_bits(self):
         for name, deck in expanding("293 + 1e8*t*(1 + 100*x)").items():
             with self.subTest(name):

@@ -253,6 +253,48 @@ class Arrays(InFolder):
             strut.Deck("no.xml")
 
 
+class Tools(InFolder):
+    def test_the_curve_and_the_picture_are_of_the_run(self):
+        run = strut.run(block.deck(Output=block.output("block.e")), block.mesh())
+        curve = strut.curve(run, area=19e-6, height=8e-3)
+        # Compression, N over m², written with 9 digits; the first row has no step before it.
+        np.testing.assert_allclose(curve.stress["Reaction_Z(top)"][1:], -run.history["Reaction_Z(top)"][1:] / 19e-6, rtol=1e-8)
+        self.assertAlmostEqual(curve.measures["largest_stress"] / max(curve.stress["Reaction_Z(top)"]), 1, 8)
+        try:
+            import vtkmodules  # noqa: F401
+        except ImportError:
+            self.skipTest("no VTK")
+        strut.picture(run, "block.png")
+        self.assertGreater(os.path.getsize("block.png"), 10000)
+
+    def test_the_stiffness_of_a_full_cube_is_hooke_s(self):
+        """With four layers at each face nothing is unstrained: what is left are the forces that the search leaves, 1e-6."""
+        E, nu = 70e9, 0.3
+        cube = strut.voxels(np.ones((8, 8, 8), bool), SPACING, name="block")
+        found = strut.stiffness({key: block.deck()[key] for key in ("Materials", "Blocks")}, cube, layers=4)
+        shear, lame = E / (2 * (1 + nu)), E * nu / ((1 + nu) * (1 - 2 * nu))
+        expected = np.diag([2 * shear] * 3 + [shear] * 3)
+        expected[:3, :3] += lame
+        np.testing.assert_allclose(found["kinematic"], expected, atol=1e-5 * E)
+
+    def test_convergence_finds_order_and_limit(self):
+        """The middles of the outer layer are half a spacing below the end of the bar: order 1, towards its length."""
+        pathlib.Path("bar.recipe").write_text("shape = box\nsize = 4e-3 4e-3 8e-3\nspacing = 1e-3\n")
+        history = {"Filename": "bar.csv", "Variables": {"Mean_Coordinate_Z(top)": True}}
+        rest = block.deck(History=history, Discretization={"Type": "Exodus", "Input Mesh File": "bar.g"}, Solver={"Final Time": 1e-7},
+                          Blocks={"bar": {"Block Names": "body", "Material": "metal", "Horizon Factor": 1.75}},
+                          **{"Boundary Conditions": None})
+        pathlib.Path("bar.xml").write_text(rest.to_xml())
+        pathlib.Path("bar.study").write_text("deck = bar.xml\nvary spacing = 1e-3 0.8e-3 0.5e-3\nset recipe spacing = {spacing}\n"
+                                             "collect = Mean_Coordinate_Z(top)\n")
+        (row,) = strut.convergence("bar.study", "grids", "spacing")
+        self.assertEqual((row["measure"], row["unit"], row["finding"]), ("Mean_Coordinate_Z(top)", "", "converging"))
+        self.assertAlmostEqual(row["order"], 1, 6)  # of values with 9 digits
+        self.assertAlmostEqual(row["limit"] / 8e-3, 1, 7)
+        with self.assertRaisesRegex(strut.Error, "sapcing"):
+            strut.convergence("bar.study", "grids", "sapcing")
+
+
 class Ends(InFolder):
     def test_threads_may_be_the_first_that_a_script_sets(self):
         done = subprocess.run([sys.executable, "-c", "import strut; strut.set_threads(2)"], capture_output=True, text=True)

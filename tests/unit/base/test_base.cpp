@@ -211,6 +211,18 @@ TEST(Function, OnlyComputesAndEnds) {
   std::string right = "x";
   for (int n = 0; n < 90; ++n) right = "(0 || 1 && 1 == 1 < 2 + 3 * " + right + ")";
   EXPECT_EQ(Function::parse(right)(3, 0, 0, 0), 1);
+  EXPECT_THROW(Function::parse("x" + std::string(10000, '-') + "x"), Error);
+}
+
+// An amplitude that was measured has tens of thousands of rows, which a look-up does not pass one by one.
+TEST(Function, TakesTablesOfAnyLength) {
+  std::ostringstream table;
+  table << "2*table(t";
+  for (int n = 0; n < 20000; ++n) table << ", " << n << ", " << n * n;
+  const std::string text = table.str() + ")";
+  EXPECT_GT(text.size(), 200000);
+  EXPECT_EQ(Function::parse(text)(0, 0, 0, 17000.5), 2 * (17000.0 * 17000 + 17000.5));
+  EXPECT_THROW(Function::parse(text + "+x" + std::string(10000, '-') + "x"), Error);
 }
 
 // The list that the reference page shows.

@@ -16,6 +16,7 @@ from .run import Run
 
 STRESS = "Stress (Pa) of "  # in a table of tools/curve
 FILE = "sample"  # of what is written for a tool
+TEXTS = ("measure", "unit", "finding")  # columns of convergence.csv
 
 
 @dataclass
@@ -76,7 +77,7 @@ def convergence(study, out, name, **options):
     def made(_):
         tool("study", study, out, converge=name, **options)
         with open(os.path.join(out, "convergence.csv"), newline="") as file:
-            return [{key: number(value) for key, value in row.items()} for row in csv.DictReader(file)]
+            return [{key: value if key in TEXTS else number(value) for key, value in row.items()} for row in csv.DictReader(file)]
     return on_first(None, made)
 
 
