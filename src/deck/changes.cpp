@@ -93,8 +93,8 @@ bool is_of_the_body(const std::string& path, const Texts& other) {
 }
 
 // The keys of the conditions of some types in one text each, without names.
-std::map<std::string, std::string> keys_of(const Texts& texts, const std::set<std::string>& types) {
-  std::map<std::string, std::string> names;  // by the keys
+std::multimap<std::string, std::string> keys_of(const Texts& texts, const std::set<std::string>& types) {
+  std::multimap<std::string, std::string> names;  // by the keys
   for (const auto& [path, type] : texts) {
     const std::string parent = "Boundary Conditions > ", end = " > Type";
     if (!path.starts_with(parent) || !path.ends_with(end)) continue;
@@ -105,7 +105,7 @@ std::map<std::string, std::string> keys_of(const Texts& texts, const std::set<st
       if (key != name && is_within(key, name) && !key.ends_with(" > Stretch"))
         keys += key.substr(name.size()) + " " + text;
     }
-    names[keys] = name;
+    names.emplace(keys, name);
   }
   return names;
 }
@@ -143,7 +143,7 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
   }
   compare_images(other, now, changes.refused);
   const auto sets_of = [](const Texts& texts) {
-    std::set<std::string> all;
+    std::multiset<std::string> all;
     for (const auto& [keys, name] : keys_of(texts, {"Body Force"})) all.insert(keys);
     return all;
   };

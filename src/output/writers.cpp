@@ -172,8 +172,13 @@ void History::serialize(Archive& archive, double time) {
 
 bool is_over(const deck::Deck& deck, const Communicator& communicator) {
   double over = 0;
-  if (communicator.rank() == 0 && deck.output.enabled) {
-    const std::optional<double> last = io::last_time_of_result(deck.output.file);
+  if (communicator.rank() == 0) {
+    std::optional<double> last;
+    if (deck.output.enabled) {
+      last = io::last_time_of_result(deck.output.file);
+    } else if (deck.history.has_file()) {
+      last = io::last_time_of_history(deck.history.file);
+    }
     over = last && *last >= deck.solver.final_time ? 1 : 0;
   }
   return communicator.max(over) > 0;

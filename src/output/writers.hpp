@@ -93,7 +93,7 @@ class History {
   HistoryRows* rows_ = nullptr;
 };
 
-// Collective. True if the result named in the deck is that of a completed run.
+// Collective. True if the result named in the deck, or without one the history, is that of a completed run.
 bool is_over(const deck::Deck& deck, const Communicator& communicator);
 
 // Frames and history together.

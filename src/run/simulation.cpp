@@ -342,7 +342,8 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   deck::Deck deck = deck::read(deck_file, communicator, problems);
   if (start == Start::continued && problems.empty() && !checkpoint_exists(deck, communicator) &&
       is_over(deck, communicator)) {
-    say(communicator, deck.output.file.string() + " is of a run that is over: there is nothing to go on with\n");
+    const auto& file = deck.output.enabled ? deck.output.file : deck.history.file;
+    say(communicator, file.string() + " is of a run that is over: there is nothing to go on with\n");
     return true;
   }
   Run run(std::move(deck), std::move(problems), communicator, start);

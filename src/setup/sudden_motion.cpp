@@ -116,11 +116,18 @@ const PrescribedMotion* displacement_of(const deck::Condition& condition) {
   return motion && !motion->is_velocity ? motion : nullptr;
 }
 
-// The value of a load or a prescribed velocity.
-const Function* sampled_value(const deck::Condition& condition) {
-  if (const auto* load = std::get_if<BodyForce>(&condition.kind)) return &load->value;
+// The values of a load, a prescribed velocity or the force on a tool.
+std::vector<Function> sampled_values(const deck::Condition& condition) {
+  if (const auto* load = std::get_if<BodyForce>(&condition.kind)) return {load->value};
   const auto* motion = std::get_if<PrescribedMotion>(&condition.kind);
-  return motion && motion->is_velocity ? &motion->value : nullptr;
+  if (motion && motion->is_velocity) return {motion->value};
+  std::vector<Function> forces;
+  const auto* tool = std::get_if<RigidTool>(&condition.kind);
+  if (!tool || !tool->free) return forces;
+  for (const std::optional<Function>& force : tool->free->force) {
+    if (force) forces.push_back(*force);
+  }
+  return forces;
 }
 
 // The functions of time that give positions of points or of a tool.
@@ -205,17 +212,18 @@ std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& poi
   std::ostringstream text;
   text.precision(2);
   for (std::size_t c = 0; c < points.size(); ++c) {
-    const Function* value = sampled_value(deck.conditions[c]);
-    if (!value || !value->depends_on_time()) continue;
-    double pulse = std::numeric_limits<double>::infinity();
-    at_corners(*value, where(points[c], body), [&](const auto& of_time) {
-      pulse = std::min(pulse, shortest_pulse(of_time, deck.solver.initial_time, deck.solver.final_time));
-    });
-    if (!(step > told * pulse)) continue;
-    text << "WARNING: " << value->path() << ": jumps twice within " << pulse
-         << " s, and each step takes the value at one "
-         << "time: the integral over these is off by up to a step, " << 100 * step / pulse
-         << " %; a ramp over some steps at each end reduces that\n";
+    for (const Function& value : sampled_values(deck.conditions[c])) {
+      if (!value.depends_on_time()) continue;
+      double pulse = std::numeric_limits<double>::infinity();
+      at_corners(value, where(points[c], body), [&](const auto& of_time) {
+        pulse = std::min(pulse, shortest_pulse(of_time, deck.solver.initial_time, deck.solver.final_time));
+      });
+      if (!(step > told * pulse)) continue;
+      text << "WARNING: " << value.path() << ": jumps twice within " << pulse
+           << " s, and each step takes the value at one "
+           << "time: the integral over these is off by up to a step, " << 100 * step / pulse
+           << " %; a ramp over some steps at each end reduces that\n";
+    }
   }
   return text.str();
 }

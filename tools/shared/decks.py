@@ -8,6 +8,8 @@ import xml.etree.ElementTree as tree
 
 from strut_tools import fail, nearest, program
 
+# Keys of the files that a run reads beside its mesh, anywhere in a section.
+FILES = {"Materials": "Library", "Discretization": "File Name", "Start From": "Checkpoint"}
 NUMBER = r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,2})?\s*"
 
 
@@ -65,6 +67,17 @@ class Deck:
         """The same, with another value of the key "Section > … > Key"."""
         deck = Deck.of(self.path, self.text)
         deck.key(path).set("value", value)
+        deck.text = tree.tostring(deck.root, "unicode")
+        return deck
+
+    def with_files(self, renamed):
+        """The same, with other names of the files that it reads beside its mesh: renamed(name) for each."""
+        deck = Deck.of(self.path, self.text)
+        for name, key in FILES.items():
+            place = deck.section(name)
+            for element in [] if place is None else place.iter("Parameter"):
+                if element.get("name") == key:
+                    element.set("value", renamed(element.get("value")))
         deck.text = tree.tostring(deck.root, "unicode")
         return deck
 

@@ -48,6 +48,9 @@ def deck_of(deck, kind, cases, center, strain, sets):
     root = tree.Element("ParameterList")
     root.extend(deck.section(name) for name in KEPT if deck.section(name) is not None)
     found = Deck.of(deck.path, tree.tostring(root, "unicode"))
+    for block in found.sections("Blocks").values():  # bonds of a stiffness do not break
+        for key in [e for e in block.findall("Parameter") if e.get("name") == "Damage Model"]:
+            block.remove(key)
     points = {box_set(face): text for face, text in sets.items()}
     by_place = {name: text for name, text in points.items() if not text[0].isdigit()}
     if by_place and found.section("Node Sets") is None:

@@ -111,7 +111,8 @@ class Case:
         status = self.process.poll()
         if status is None:
             return False
-        over = status != EARLY and status >= 0 and not (stopped and status != 0)
+        killed = status < 0 or status > 128  # mpirun ends with 128 and the number of the signal
+        over = status != EARLY and not killed and not (stopped and status != 0)
         self.put_state(over=over, error=last_line(self.log) if over and status else None,
                        seconds=self.state().get("seconds", 0) + time.monotonic() - self.started)
         self.process = None

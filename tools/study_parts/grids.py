@@ -86,7 +86,7 @@ def spacing_of(recipe):
     body = main_body(bodies)
     try:
         h = float(body["spacing"])
-        if body.get("shape") in ("box", "foam"):
+        if body.get("shape") in ("box", "foam", "lattice"):
             return math.prod(length / whole(length / h) for length in map(float, body["size"].split()))**(1 / 3)
         layer = float(body["length"]) / whole(float(body["length"]) / h)
         if body.get("shape") == "cylinder" and body.get("method", "lattice") == "lattice":

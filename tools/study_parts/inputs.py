@@ -20,6 +20,7 @@ def of(deck, recipe):
         deck = deck.with_value("Discretization > Input Mesh File", made)
     elif mesh:
         deck = linked(deck, "Discretization > Input Mesh File", mesh, here, links)
+    deck = deck.with_files(lambda path: link(path, here, links))
     conditions = deck.section("Boundary Conditions")
     for element in [] if conditions is None else conditions.findall("Parameter"):  # Peridigm's sets, by a file
         if "Node Set" in element.get("name"):

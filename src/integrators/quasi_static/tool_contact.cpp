@@ -40,8 +40,13 @@ void ToolContact::begin(const Body& body, double t, double dt) {
   }
   std::vector<double> moduli(body.owned(), 0);
   for (const MaterialBlock& block : body.blocks) {
-    for (std::size_t k = 0; k < block.points.size(); ++k)
-      moduli[block.points[k]] = block.moduli(block.place(k, 0)).longitudinal();
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      // By the stiffest integration point: one that has failed has no stiffness.
+      for (int q = 0; q < block.points_per_cell(); ++q) {
+        double& modulus = moduli[block.points[k]];
+        modulus = std::max(modulus, block.moduli(block.place(k, q)).longitudinal());
+      }
+    }
   }
   for (ContactPoint& contact : contact_points_) {
     contact.start = body.current(contact.point);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "base/build_facts.hpp"
@@ -31,6 +32,17 @@ std::string history_name_problem(const std::string& name) {
   if (!name.empty() && name[0] != '#' && name.find_first_of(",\"\r\n") == std::string::npos) return "";
   return "'" + name +
          "' cannot be the name of a history column: it is empty, begins with # or holds , \" or a line break";
+}
+
+std::optional<double> last_time_of_history(const std::filesystem::path& file) {
+  std::ifstream history(file);
+  std::string line, last;
+  if (!std::getline(history, line) || !line.starts_with(history_mark) || !std::getline(history, line)) return {};
+  while (std::getline(history, line)) {
+    if (!history.eof()) last = line;  // a row without its line break was cut off
+  }
+  if (last.empty()) return {};
+  return std::strtod(last.c_str(), nullptr);
 }
 
 HistoryFile::HistoryFile(const std::filesystem::path& path, const Communicator& communicator,

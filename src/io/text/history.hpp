@@ -23,6 +23,9 @@ struct HistoryColumn {
 // The reason why this cannot be the name of a column; "" if it can.
 std::string history_name_problem(const std::string& name);
 
+// The time of the last row of a history, s; nothing if the file has none.
+std::optional<double> last_time_of_history(const std::filesystem::path& file);
+
 // Collective; rank 0 writes.
 class HistoryFile {
  public:

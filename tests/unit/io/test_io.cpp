@@ -355,6 +355,10 @@ TEST(History, KeepsAllDigitsAndEveryRow) {
     EXPECT_EQ(b, 1.0 / 3);
     EXPECT_EQ(c, -1e-300);
     EXPECT_EQ(d, 2);
+    EXPECT_EQ(last_time_of_history(folder / "history.csv"), -1e-300);
+    std::ofstream(folder / "other.csv") << "Time,Energy\n1,2\n";
+    EXPECT_EQ(last_time_of_history(folder / "other.csv"), std::nullopt);
+    EXPECT_EQ(last_time_of_history(folder / "none.csv"), std::nullopt);
   }
   EXPECT_THROW(history.write(std::vector<double>{1}), Error);
   EXPECT_THROW(HistoryFile(folder / "no/such/folder.csv", world, {{"Time", "s"}}), Error);

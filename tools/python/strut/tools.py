@@ -16,6 +16,7 @@ from .run import Run
 
 STRESS = "Stress (Pa) of "  # in a table of tools/curve
 FILE = "sample"  # of what is written for a tool
+READ = {"Discretization": ("Input Mesh File", "File Name"), "Materials": ("Library",), "Start From": ("Checkpoint",)}  # files
 TEXTS = ("measure", "unit", "finding")  # columns of convergence.csv
 
 
@@ -123,17 +124,22 @@ def deck_of_run(run, folder):
 
 def write_deck(deck, mesh, folder):
     deck = deck if isinstance(deck, Deck) else Deck(deck)
-    points = dict(deck.get("Discretization", {}))
+    here = os.path.dirname(deck.name)
+    sections = {**deck, **{name: with_files(deck[name], keys, lambda path: os.path.relpath(os.path.join(here, path), folder))
+                           for name, keys in READ.items() if name in deck}}
     if mesh is not None:
         mesh.write(os.path.join(folder, FILE + ".g"))
-        points.update({"Type": "Exodus", "Input Mesh File": FILE + ".g"})
-    elif "Input Mesh File" in points:
-        beside = os.path.join(os.path.dirname(deck.name), points["Input Mesh File"])
-        points["Input Mesh File"] = os.path.relpath(beside, folder)
+        sections["Discretization"] = {**sections.get("Discretization", {}), "Type": "Exodus", "Input Mesh File": FILE + ".g"}
     path = os.path.join(folder, FILE + ".xml")
     with open(path, "w") as file:
-        file.write(Deck({**deck, "Discretization": points}, deck.name).to_xml())
+        file.write(Deck(sections, deck.name).to_xml())
     return path
+
+
+def with_files(section, keys, renamed):
+    """The section with other names of the files that these keys name, at any depth."""
+    return {key: with_files(value, keys, renamed) if isinstance(value, dict)
+            else renamed(value) if key in keys and isinstance(value, str) else value for key, value in section.items()}
 
 
 def columns(path):
