@@ -139,6 +139,7 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     if (is_within(path, "Contact")) changes.same_contact = false;
     if (is_within(path, "Boundary Conditions") || is_within(path, "Node Sets")) changes.same_conditions = false;
     if (is_within(path, "Node Sets")) changes.same_loads = false;
+    if (path == "Solver > Verlet > Mass Scaling dt") changes.masses = path + ": " + was + " there, " + is + " here";
     if (is_of_the_body(path, other)) changes.refused.push_back(path + ": " + was + " there, " + is + " here");
   }
   compare_images(other, now, changes.refused);

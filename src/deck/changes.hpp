@@ -21,6 +21,7 @@ Changes changes(const std::string& before, const std::string& now);
 struct StartChanges {
   std::vector<std::string> refused;     // keys that make it another body, as above
   std::vector<std::string> same_files;  // keys by which both decks name one file to write
+  std::string masses;                   // another mass scaling, as above; "" if it is the same
   bool after_equilibria = false;        // the other run's solver
   bool same_solver = false, same_contact = false, same_conditions = false, same_loads = false;
 };

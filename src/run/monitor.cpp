@@ -56,14 +56,19 @@ std::string at(double time) {
   return text.str();
 }
 
-std::string balance_of(const Ledger& ledger) {
+std::string balance_of(const Ledger& ledger, bool expands) {
   std::ostringstream text;
   text << "the balance of energy has an error of " << 100 * ledger.balance_error << " % of the largest energy, "
        << std::abs(ledger.gained) << " J "
        << (ledger.gained > 0 ? "out of nothing: the run is unstable, or" : "that nothing accounts for: the run")
        << " is too coarse in time (Watch > Balance Error). Likely causes: a Fixed dt above the critical time step, a "
           "load too sudden, too few load steps, contact or a tool with a Mass that meets points with substeps "
-          "(Subcycling); the last frame shows where points fly off";
+          "(Subcycling)"
+       << (expands
+               ? ", thermal expansion of a law without an energy of its own, whose balance errs by some part of the "
+                 "thermal strain"
+               : "")
+       << "; the last frame shows where points fly off";
   return text.str();
 }
 
@@ -223,7 +228,7 @@ void Monitor::check_energy(const Ledger& ledger, bool last) {
   const double error = ledger.balance_error;
   next_energy_ = ledger.time + pause_;
   if (++ledgers_ <= first_ledgers && !last && std::isfinite(error)) return;
-  const std::string text = at(ledger.time) + balance_of(ledger);
+  const std::string text = at(ledger.time) + balance_of(ledger, !body_.expansion.empty());
   const double limit = (ledger.gained > 0 ? of_gains : 1) * limits_.balance_error;
   if (!(error <= limit)) {
     const std::string once = body_.domain.communicator.rank() == 0 ? text : "";

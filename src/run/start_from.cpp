@@ -170,7 +170,11 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
     return changes_.same_conditions && std::ranges::find(parts.missing, name) == parts.missing.end();
   };
   begin_from_here(deck, {goes_on_, changes_.same_conditions}, knows_reaches, scene, communicator_);
-  return (parts.note.empty() ? "" : "WARNING: " + parts.note + "\n") + story(deck, scene);
+  const bool jumps = keeps_velocities_ && !changes_.after_equilibria && !changes_.masses.empty();
+  return (parts.note.empty() ? "" : "WARNING: " + parts.note + "\n") +
+         (jumps ? "WARNING: " + changes_.masses + ": momentum and kinetic energy are not those of the checkpoint\n"
+                : "") +
+         story(deck, scene);
 }
 
 std::string StartState::story(const deck::Deck& deck, const Scene& scene) const {

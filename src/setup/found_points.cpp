@@ -20,16 +20,20 @@ std::vector<FoundPoints> found_points(const Body& body, const std::vector<std::v
   }
   const std::vector<double> own = least;
   ranks.sum(counts), ranks.max(least);
-  std::vector<double> places(3 * lists.size(), 0);
+  std::vector<double> places(6 * lists.size(), 0);
   for (std::size_t n = 0; n < lists.size(); ++n) {
     if (ones[n] < 0 || own[n] != least[n]) continue;
-    for (int c = 0; c < 3; ++c) places[3 * n + c] = body.domain.reference(ones[n])[c];
+    for (int c = 0; c < 3; ++c) {
+      places[6 * n + c] = body.domain.reference(ones[n])[c];
+      places[6 * n + 3 + c] = body.displacement(ones[n])[c];
+    }
   }
   ranks.sum(places);
   std::vector<FoundPoints> found;
   for (std::size_t n = 0; n < lists.size(); ++n) {
+    const double* of_one = &places[6 * n];
     found.push_back(
-        {static_cast<std::int64_t>(counts[n]), Vector(places[3 * n], places[3 * n + 1], places[3 * n + 2])});
+        {static_cast<std::int64_t>(counts[n]), {of_one[0], of_one[1], of_one[2]}, {of_one[3], of_one[4], of_one[5]}});
   }
   return found;
 }

@@ -11,7 +11,8 @@ namespace strut {
 
 struct FoundPoints {
   std::int64_t count = 0;
-  Vector one = Vector::Zero();  // the reference position of the one with the least id, m
+  Vector one = Vector::Zero();           // the reference position of the one with the least id, m
+  Vector displacement = Vector::Zero();  // of that one, m
 };
 
 // Collective. One result for each list of owned points; every rank has the same number of lists.

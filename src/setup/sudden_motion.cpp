@@ -174,15 +174,16 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
     if (found[c].count == 0) continue;
     const Function& value = displacement_of(deck.conditions[c])->value;
     std::ostringstream text;
-    text << value.evaluate(found[c].one[0], found[c].one[1], found[c].one[2], t) << " m at the initial time, t = " << t
-         << " s, where the body is displaced otherwise, at " << place_text(found[c].one) << " and "
+    const double u = value.evaluate(found[c].one[0], found[c].one[1], found[c].one[2], t);
+    text << (u == 0 ? 0 : u) << " m at the initial time, t = " << t << " s, where the body is displaced otherwise: by "
+         << place_text(found[c].displacement) << " at " << place_text(found[c].one) << ", likewise "
          << found[c].count - 1 << " other points";
-    if (deck.solver.quasi_static) {
+    if (deck.solver.quasi_static && !deck.start_from) {
       told << value.path() << " is " << text.str() << ": the first load step takes all of it\n";
     } else {
       problems.add(value.path(), text.str() +
-                                     "; expected the displacement that these points have then (0 m in the mesh), or "
-                                     "they would be thrown within one step");
+                                     "; expected the displacement that these points have then, which counts from the "
+                                     "mesh, or they would be thrown within one step");
     }
   }
   return told.str();

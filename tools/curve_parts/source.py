@@ -90,11 +90,16 @@ def is_equilibrium(deck):
     return deck is not None and deck.section("Solver", "QuasiStatic") is not None
 
 
-def are_means(path, name):
-    """True if a force column has means since the previous row, according to the first line of the history."""
+def rows_of_means(path, name, deck, times):
+    """True for each row in which a force column has the mean since the previous row: all rows according to the first line
+    of the history, or those of explicit steps that follow equilibria (Solver 2)."""
     with open(path, newline="") as file:
         units, names = (re.split(r"units: *", file.readline().strip())[-1].split(","), file.readline().strip().split(","))
-    return len(units) == len(names) and units[names.index(name)].strip() == "N (mean)"
+    if len(units) == len(names) and units[names.index(name)].strip() == "N (mean)":
+        return np.full(len(times), True)
+    steps_follow = is_equilibrium(deck) and deck.section("Solver 2") is not None and not name.startswith("Instant_")
+    end = value_at(deck.get("Solver", "Final Time", default=""), 0) if steps_follow else None
+    return times > (np.inf if end is None else end)
 
 
 def signed(values):

@@ -41,14 +41,17 @@ void check(const Body& body) {
   }
 }
 
-// Struts thinner than a voxel are disconnected until the radius connects them, and then there are too many voxels.
+// Struts thinner than a voxel are disconnected until the radius connects them, and then there are too many voxels. In a
+// regular skeleton many voxels are equally far from the edges, and whole ones come together.
 void check(const Body& body, const Struts& struts, std::size_t wanted) {
   if (volume_of(struts) <= too_much * static_cast<double>(wanted)) return;
-  throw Error("body '" + body.name +
-              "': struts of this relative density would be thinner than the voxels; in one piece they are " +
-              number(2 * struts.radius / body.spacing) + " spacings thick and have " +
-              number(volume_of(struts) / static_cast<double>(wanted)) +
-              " times the density: take a smaller spacing or larger cells");
+  const bool is_thin = 2 * struts.radius < body.spacing;
+  throw Error("body '" + body.name + "': " +
+              (is_thin ? "struts of this relative density would be thinner than the voxels"
+                       : "many voxels are equally far from the edges and come together") +
+              "; in one piece they are " + number(2 * struts.radius / body.spacing) + " spacings thick and have " +
+              number(volume_of(struts) / static_cast<double>(wanted)) + " times the density: take a smaller spacing" +
+              (is_thin ? " or larger cells" : ", or 'cells = 6', which holds them in part"));
 }
 
 std::string summary_of(const Body& body, const VoxelGrid& grid, const Skeleton& skeleton, const Struts& struts) {
@@ -85,7 +88,23 @@ Body drawn(Body body) {
   return body;
 }
 
+// Whole voxels at one level are kept or left out together; cells hold them in part.
+Struts as_meshed(const Body& body, Struts struts) {
+  if (body.cells == 0) struts.fills.clear();
+  return struts;
+}
+
 bool is_periodic(const Body& body) { return body.periodic[0] || body.periodic[1] || body.periodic[2]; }
+
+// A lattice repeats after whole cells.
+void check_periods(const Body& body) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cells = body.size[axis] / body.cell;
+    if (!body.periodic[axis] || std::abs(cells - std::round(cells)) < 1e-6 * cells) continue;
+    throw Error("body '" + body.name + "': periodic along " + "xyz"[axis] + ", but " + number(cells) + " cells of " +
+                number(body.cell) + " m long: expected a whole number of cells");
+  }
+}
 
 std::string axes_of(const Body& body) {
   std::string text = is_periodic(body) ? ", periodic along" : "";
@@ -118,7 +137,6 @@ io::Mesh mesh_of_cells(const Body& body, const Struts& struts, const std::string
   return cell_mesh(cells);
 }
 
-// Whole voxels at one level are kept or left out together; cells hold them in part.
 io::Mesh mesh_of_members(const Body& body, Struts struts, const std::string& members, const VoxelGrid& grid,
                          std::string& summary) {
   if (body.cells > 0) return mesh_of_cells(body, struts, members, grid, summary);
@@ -175,8 +193,9 @@ Struts lattice_members(const Body& body, const VoxelGrid& grid) {
 io::Mesh lattice_mesh(const Body& body, std::string& summary) {
   const Body fine = drawn(body);
   check(fine);
+  check_periods(body);
   const VoxelGrid grid = grid_of_body(body);
-  Struts struts = lattice_members(body, grid);
+  Struts struts = as_meshed(body, lattice_members(body, grid));
   const bool is_solid = body.lattice == "gyroid" || body.lattice == "diamond";
   if (body.relative_density > 0) check(fine, struts, wanted_of(body, grid));
   summary = summary_of_lattice(fine, grid, struts, is_solid);
@@ -191,8 +210,8 @@ io::Mesh foam_mesh(const Body& body, std::string& summary) {
   const Skeleton skeleton = foam_skeleton(
       body.size, {body.cell, body.irregularity, body.seed, body.sizes, body.relax, body.stretch, is_periodic(body)});
   const std::size_t wanted = wanted_of(body, grid);
-  const Struts struts =
-      struts_around(skeleton.edges, grid, wanted, {.node = body.node_thickness, .three_cornered = body.three_cornered});
+  const StrutShape shape{.node = body.node_thickness, .three_cornered = body.three_cornered};
+  const Struts struts = as_meshed(body, struts_around(skeleton.edges, grid, wanted, shape));
   check(fine, struts, wanted);
   summary = summary_of(fine, grid, skeleton, struts) + summary_of_more(body, skeleton);
   return mesh_of_members(body, struts, "struts", grid, summary);

@@ -9,6 +9,7 @@ import numpy as np
 
 import headers
 import nrrd
+import orientation
 import points
 import scanco
 from strut_tools import captured, check_input, fail, nearest
@@ -75,14 +76,16 @@ def read(path, raw=None, array=None, unit=None):
         values, spacing = scanco.read(path)
         return Image(values, spacing, "Scanco's")
     if ending in TIFF:
-        return Image(tiff(path), None, "TIFF")
+        return Image(*tiff(path))
     if ending in headers.NRRD:
         return checked(path, *nrrd.read(path), ending, unit)
     if ending in VTK_READERS:
         values, image = by_vtk(path, *VTK_READERS[ending], array)
+        directions = orientation.of_vtk(image)
         if ending in headers.META_IMAGE:
             headers.check_meta_image(path, values)
-        return checked(path, values, image.GetSpacing(), ending, unit)
+            directions = orientation.of_meta_image(path, headers.head_of(path))
+        return checked(path, *orientation.oriented(path, values, image.GetSpacing(), directions), ending, unit)
     if ending in NUMPY:
         return Image(numpy_array(path).transpose(), None, "NumPy's array [x, y, z]")
     if ending in TEXT:
@@ -135,13 +138,15 @@ def bare(path, raw):
 
 
 def tiff(path):
+    """The array, no spacing and the kind."""
     import tifffile
 
-    wrong = None
+    wrong, white_is_zero = None, False
     with captured() as said:
         try:
             with tifffile.TiffFile(path) as file:
                 color = any(page.samplesperpixel > 1 for page in file.pages)
+                white_is_zero = file.pages[0].photometric == tifffile.PHOTOMETRIC.MINISWHITE
                 values = None if color or len(file.series) != 1 else file.asarray()
                 series = len(file.series)
         except Exception as error:  # damaged files raise any exception of the parser
@@ -149,14 +154,24 @@ def tiff(path):
     if said.error():  # the rest of a truncated file may still consist of equal pages
         fail(f"{path} is damaged: {said.error()}")
     if wrong is not None and "imagecodecs" in str(wrong):  # a compression that needs a library missing in Debian
-        return tiff_by_vtk(path)
+        return tiff_by_vtk(path), None, "TIFF"
     if wrong is not None or (values is None and series == 0):
         fail(f"{path} is not a TIFF image, or is damaged: {one_line(wrong or said.text) or 'it has no pages'}")
     if color:
         fail(f"{path} has several numbers a voxel (colors?), expected one")
     if values is None or (values.ndim not in (2, 3)):
         fail(f"{path} holds images of different sizes or of more than three dimensions, expected pages of one size")
-    return values.reshape((-1, *values.shape[-2:]))
+    values = values.reshape((-1, *values.shape[-2:]))
+    return (darkened(path, values), None, "TIFF, of which 0 is white") if white_is_zero else (values, None, "TIFF")
+
+
+def darkened(path, values):
+    """The same picture with 0 as black (TIFF 6.0, PhotometricInterpretation 0)."""
+    if values.dtype == bool:
+        return ~values
+    if values.dtype.kind != "u":
+        fail(f"{path} says that 0 is white (PhotometricInterpretation 0), of numbers of the type {values.dtype}: expected 0 as black")
+    return np.iinfo(values.dtype).max - values
 
 
 def one_line(what):
@@ -176,18 +191,18 @@ def slices(names, where):
     if any(os.path.isdir(name) or os.path.getsize(name) == 0 for name in names):
         fail(f"{next(n for n in names if os.path.isdir(n) or os.path.getsize(n) == 0)} is empty or a folder")
     if len(names) == 1:
-        return Image(tiff(names[0]), None, "TIFF")
-    values = None
+        return Image(*tiff(names[0]))
+    values, kind = None, "TIFF"
     for z, name in enumerate(names):
         if ending_of(name) not in TIFF:
             fail(f"{name}: a list of slices holds TIFF images only (.tif, .tiff)")
-        page = tiff(name)
+        page, _, kind = tiff(name)
         values = np.empty((len(names), *page.shape[1:]), page.dtype) if values is None else values
         if page.shape != (1, *values.shape[1:]) or page.dtype != values.dtype:
             fail(f"{name} has {shape_text(page)} voxels of {page.dtype}, expected {values.shape[2]} x "
                  f"{values.shape[1]} x 1 of {values.dtype} as in {names[0]}")
         values[z] = page[0]
-    return Image(values, None, f"{len(names)} TIFF slices")
+    return Image(values, None, f"{len(names)} slices, {kind}")
 
 
 def shape_text(values):

@@ -7,6 +7,7 @@ import zlib
 
 import numpy as np
 
+import orientation
 from strut_tools import fail
 
 TYPES = {"signed char": "i1", "int8": "i1", "uchar": "u1", "unsigned char": "u1", "uint8": "u1",
@@ -30,7 +31,9 @@ def read(path):
         fail(f"{path}: a header alone, expected a field 'data file'")
     else:
         parts = [unpacked(path, fields, rest)]
-    return joined(path, fields, parts), spacing_of(path, fields)
+    directions = directions_of(path, fields)
+    axes = directions and [d for d in directions if d is not None]
+    return orientation.oriented(path, joined(path, fields, parts), spacing_of(path, fields), axes)
 
 
 def header_of(path, file):

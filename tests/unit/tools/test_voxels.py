@@ -592,10 +592,28 @@ class Formats(ToolTest):
             self.assertEqual(found.spacing, (0.001, 0.002, 0.003))
 
     def test_nrrd_with_directions(self):
-        turned = nrrd(self.image).replace(b"spacings: 0.001 0.002 0.003", b"space directions: (0,1e-3,0) (2e-3,0,0) (0,0,-3e-3)")
-        self.check(self.write("a.nrrd", turned))
-        sheared = turned.replace(b"(0,1e-3,0)", b"(1e-4,1e-3,0)")  # voxels would have the volume of boxes
-        self.refused("voxels", "not at right angles", self.write("a.nrrd", sheared))
+        def file(directions):
+            head = nrrd(self.turned()).replace(b"spacings: 0.001 0.002 0.003", b"space directions: " + directions)
+            return self.write("a.nrrd", head)
+
+        self.check(file(b"(0,2e-3,0) (1e-3,0,0) (0,0,-3e-3)"))
+        # Voxels would have the volume of boxes.
+        self.refused("voxels", "not at right angles", file(b"(2e-4,2e-3,0) (1e-3,0,0) (0,0,-3e-3)"))
+        self.refused("voxels", "would stand askew", file(b"(-1e-4,2e-3,0) (1e-3,5e-5,0) (0,0,-3e-3)"))
+
+    def turned(self):
+        """The image with y as its fastest axis, and z downward."""
+        return self.image.transpose(0, 2, 1)[::-1]
+
+    def test_meta_image_and_vtk_with_directions(self):
+        head = ("ObjectType = Image\nNDims = 3\nTransformMatrix = 0 1 0 1 0 0 0 0 -1\nElementSpacing = 0.002 0.001 0.003\n"
+                "DimSize = 10 12 8\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n")
+        self.check(self.write("a.mha", head.encode() + self.turned().tobytes()), "--units", "m")
+        vti = ('<?xml version="1.0"?><VTKFile type="ImageData" version="0.1" byte_order="LittleEndian"><ImageData '
+               'WholeExtent="0 10 0 12 0 8" Origin="0 0 0" Spacing="0.002 0.001 0.003" Direction="0 1 0 1 0 0 0 0 -1">'
+               '<Piece Extent="0 10 0 12 0 8"><CellData Scalars="s"><DataArray type="UInt8" Name="s" format="ascii">'
+               f'{" ".join(map(str, self.turned().ravel()))}</DataArray></CellData></Piece></ImageData></VTKFile>')
+        self.check(self.write("a.vti", vti.encode()), "--units", "m")
 
     def test_nrrd_with_several_data_files(self):
         head, data = nrrd(self.image).split(b"\n\n", 1)
@@ -672,6 +690,14 @@ class Formats(ToolTest):
         for kind, words in itertools.product(("u1", "u2", "f4"), ({}, {"compression": "zlib"}, {"imagej": True})):
             tifffile.imwrite(self.path("a.tif"), self.image.astype(kind), **words)
             self.check(self.path("a.tif"), "--voxel-size", *self.spacing)
+
+    def test_tiff_of_which_0_is_white(self):
+        tifffile.imwrite(self.path("a.tif"), 255 - self.image, photometric="miniswhite")
+        said, _ = self.works("voxels", self.path("a.tif"), "--voxel-size", *self.spacing)
+        self.assertIn("of which 0 is white", said["image"])
+        self.check(self.path("a.tif"), "--voxel-size", *self.spacing)
+        tifffile.imwrite(self.path("a.tif"), self.image.astype("f4"), photometric="miniswhite")
+        self.refused("voxels", "PhotometricInterpretation 0", self.path("a.tif"), "--voxel-size", *self.spacing)
 
     @unittest.skipUnless(importlib.util.find_spec("PIL"), "python3-pil is not there, which writes LZW")
     def test_tiff_with_lzw(self):
