@@ -53,8 +53,8 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   check_temperatures({deck.materials, deck.damage_models, deck.blocks, deck.conditions}, problems);
   deck.next_solver = read_next_solver(values, deck.solver, problems);
   const bool steps_follow = deck.next_solver.has_value();
-  check_quasi_static(deck.solver, deck.conditions, deck.contact_models, deck.blocks, deck.damage_models, steps_follow,
-                     problems);
+  check_quasi_static(deck.solver, deck.conditions, deck.contact_models, deck.materials, deck.blocks, deck.damage_models,
+                     steps_follow, problems);
   deck.output = read_output(values, deck.solver, problems);
   deck.history = read_history(values, deck.solver, problems);
   if (steps_follow) tell_of_long_intervals(deck, problems);

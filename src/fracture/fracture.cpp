@@ -8,6 +8,7 @@
 #include "fracture/broken_family.hpp"
 #include "fracture/critical_stretch.hpp"
 #include "fracture/work_balance.hpp"
+#include "mechanics/breaks_at_rest.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/reflected.hpp"
@@ -151,6 +152,33 @@ void Fracture::start_step(const Body& body, std::span<const Vector> velocities, 
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
   is_looked_at_ = is_due || limits_change(body) || any_fails || energies_.any();
   if (is_looked_at_) keep_start(body);
+}
+
+bool Fracture::breaks_at_rest(const Body& body) const {
+  return std::ranges::all_of(body.blocks, [](const MaterialBlock& block) {
+    const auto& [formulation, law, damage] =
+        std::tie(block.material.formulation, block.material.law, block.material.damage);
+    return !damage || strut::breaks_at_rest(formulation, law, *damage);
+  });
+}
+
+void Fracture::start_rest(const Body& body) {
+  look_at_all(body);
+  keep_start(body);
+  is_looked_at_ = true;
+}
+
+double Fracture::largest_stretch(const Body& body) const {
+  const Domain& domain = body.domain;
+  double largest = 0;
+  for (int i = 0; i < domain.owned; ++i) {
+    domain.families.for_each(i, [&](int j) {
+      const double limit = std::sqrt(std::min(limits_[i], limits_[j])) - 1;
+      const double length = (domain.current(j) - domain.current(i)).norm();
+      largest = std::max(largest, (length / (domain.reference(j) - domain.reference(i)).norm() - 1) / limit);
+    });
+  }
+  return domain.communicator.max(largest);
 }
 
 void Fracture::look_at_all(const Body& body) {

@@ -108,7 +108,7 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
   }
   text << "estimated time " << range(steps * std::min(first, second), most * steps * std::max(first, second)) << "\n";
   if (deck.next_solver) {
-    const deck::Deck next = next_of(deck, solver.take_contact(), scene);
+    const deck::Deck next = next_of(deck, solver.take_contact(), solver.take_fracture(), scene);
     text << "Solver 2, with the body after these load steps:\n" << check_steps(next, scene);
   }
   return text.str();

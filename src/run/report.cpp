@@ -235,10 +235,12 @@ std::string what_did_not_happen(const Scene& scene, const Ledger& ledger, int be
 }
 
 std::string energies(const Ledger& ledger) {
-  return formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g%s, stabilization %.5g%s;\n",
-                   ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated,
-                   ledger.heat > 0 ? formatted(" (heat %.5g)", ledger.heat).c_str() : "", ledger.stabilization,
-                   ledger.fracture > 0 ? formatted(", fracture %.5g", ledger.fracture).c_str() : "") +
+  return formatted(
+             "energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g%s, stabilization %.5g%s%s;\n",
+             ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated,
+             ledger.heat > 0 ? formatted(" (heat %.5g)", ledger.heat).c_str() : "", ledger.stabilization,
+             ledger.fracture > 0 ? formatted(", fracture %.5g", ledger.fracture).c_str() : "",
+             ledger.jumps > 0 ? formatted(", lost in jumps to the next equilibrium %.5g", ledger.jumps).c_str() : "") +
          formatted(
              "work of conditions %.5g, of tools %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
              ledger.external, ledger.tools, ledger.contact, ledger.balance_error);

@@ -85,7 +85,7 @@ Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicat
   return scene;
 }
 
-deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, Scene& scene) {
+deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, std::optional<Fracture> fracture, Scene& scene) {
   deck::Deck next = deck;
   next.solver = *deck.next_solver;
   next.next_solver.reset();
@@ -102,12 +102,13 @@ deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, Scene& scen
   scene.quasi_static.reset();
   scene.control = control_of(next);
   scene.contact = std::move(contact);
-  scene.fracture = fracture_of(scene.body);
+  scene.fracture = std::move(fracture);
   return next;
 }
 
-deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& scene) {
-  const deck::Deck next = next_of(deck, std::move(contact), scene);
+deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, std::optional<Fracture> fracture,
+                       Scene& scene) {
+  const deck::Deck next = next_of(deck, std::move(contact), std::move(fracture), scene);
   add_conditions(next, deck.solver.initial_time, scene, scene.body.domain.communicator);
   return next;
 }

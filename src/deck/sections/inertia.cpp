@@ -1,13 +1,37 @@
 #include "deck/sections/inertia.hpp"
 
+#include <algorithm>
+
 #include "deck/numbers.hpp"
 #include "deck/problems.hpp"
+#include "mechanics/breaks_at_rest.hpp"
 
 namespace strut::deck {
 
+namespace {
+
+// Equilibria in which bonds break are verified with prescribed motion and body forces only.
+void check_what_acts_on_cracks(const std::vector<Condition>& conditions,
+                               const std::vector<ContactModel>& contact_models, Problems& problems) {
+  const std::string unlike =
+      " beside a Damage Model in Blocks with Solver > QuasiStatic; expected explicit steps (Verlet)";
+  for (const Condition& condition : conditions) {
+    const PeriodicSides* sides = std::get_if<PeriodicSides>(&condition.kind);
+    const bool moving_sides = sides && !sides->stretch.is_constant();
+    const bool is_tool = std::holds_alternative<RigidTool>(condition.kind);
+    if (!moving_sides && !is_tool && !std::holds_alternative<PrescribedTemperature>(condition.kind)) continue;
+    problems.add("Boundary Conditions > " + condition.name + (moving_sides ? " > Stretch" : " > Type"),
+                 "given" + unlike + (is_tool ? ", or Prescribed Displacement" : ""));
+  }
+  if (!contact_models.empty()) problems.add("Contact", "given" + unlike);
+}
+
+}  // namespace
+
 void check_quasi_static(const Solver& solver, const std::vector<Condition>& conditions,
-                        const std::vector<ContactModel>& contact_models, const std::vector<Block>& blocks,
-                        const std::vector<NamedDamageModel>& damage_models, bool steps_follow, Problems& problems) {
+                        const std::vector<ContactModel>& contact_models, const std::vector<Material>& materials,
+                        const std::vector<Block>& blocks, const std::vector<NamedDamageModel>& damage_models,
+                        bool steps_follow, Problems& problems) {
   if (!solver.quasi_static) return;
   for (const Condition& condition : conditions) {
     if (steps_follow && !std::holds_alternative<InitialDisplacement>(condition.kind)) continue;
@@ -33,10 +57,18 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
   }
   for (const Block& block : blocks) {
     const DamageModel* model = damage_model_of(block, damage_models);
-    if (!block.damage_model || (steps_follow && !(model && model->is_gradual))) continue;
-    problems.add("Blocks > " + block.name + " > Damage Model",
-                 "bonds cannot break with Solver > QuasiStatic; expected explicit steps (Verlet)");
+    if (!model || block.material >= static_cast<int>(materials.size())) continue;
+    const Material& material = materials[block.material];
+    if (material.name.empty() || breaks_at_rest(material.formulation, material.law, *model)) continue;
+    if (steps_follow && !model->is_gradual) continue;
+    problems.add(
+        "Blocks > " + block.name + " > Damage Model",
+        "bonds cannot break with Solver > QuasiStatic in this way; expected explicit steps (Verlet), or Damage "
+        "Model 'Critical Stretch' in a material 'Elastic', or 'Elastic Correspondence' without Formulation "
+        "'Quadratic Correspondence'");
   }
+  const bool breaks = std::ranges::any_of(blocks, [](const Block& block) { return block.damage_model.has_value(); });
+  if (breaks && !steps_follow) check_what_acts_on_cracks(conditions, contact_models, problems);
 }
 
 void check_initial_strains(const std::vector<Condition>& conditions, const std::vector<Material>& materials,

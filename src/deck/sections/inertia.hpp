@@ -11,11 +11,12 @@
 
 namespace strut::deck {
 
-// `steps_follow`: explicit steps follow the equilibria, and what needs inertia begins there; but stress that falls
-// before bonds break would fall in the equilibria already.
+// `steps_follow`: explicit steps follow the equilibria, and what needs inertia begins there, also bonds that cannot
+// break in equilibria; but stress that falls before bonds break would fall in the equilibria already.
 void check_quasi_static(const Solver& solver, const std::vector<Condition>& conditions,
-                        const std::vector<ContactModel>& contact_models, const std::vector<Block>& blocks,
-                        const std::vector<NamedDamageModel>& damage_models, bool steps_follow, Problems& problems);
+                        const std::vector<ContactModel>& contact_models, const std::vector<Material>& materials,
+                        const std::vector<Block>& blocks, const std::vector<NamedDamageModel>& damage_models,
+                        bool steps_follow, Problems& problems);
 
 void check_initial_strains(const std::vector<Condition>& conditions, const std::vector<Material>& materials,
                            Problems& problems);

@@ -37,7 +37,8 @@ Section quasi_static_section() {
   return {.name = "QuasiStatic",
           .meaning =
               "A series of equilibria without inertia, instead of Verlet. Strain rates follow from the times of the "
-              "conditions.",
+              "conditions. Bonds of elastic solids break between equilibria, by Critical Stretch; with a Damage Model "
+              "there are no tools, contact or temperatures.",
           .keys = {with_tangent, load_steps, tolerance, most_iterations,
                    without_effect({.name = "Absolute Tolerance", .range = positive},
                                   "what may be left is a part of the forces that act: Tolerance"),
@@ -170,7 +171,8 @@ Section next_solver_section() {
   section.required = false;
   section.meaning =
       "Explicit steps after the equilibria of Solver: a body that is loaded slowly, then struck. Conditions that need "
-      "inertia (initial velocities, tools with a mass, non-reflecting ends) and the breaking of bonds begin here.";
+      "inertia (initial velocities, tools with a mass, non-reflecting ends) begin here, and the breaking of bonds that "
+      "hold in equilibria.";
   section.keys.push_back(keeps_velocities);
   return section;
 }

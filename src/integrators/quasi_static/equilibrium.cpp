@@ -71,6 +71,7 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
       tools_(tools_of(conditions_), body),
       committed_(body) {
   check_equilibria_possible(conditions_);
+  breaks_ = may_break();
   residual_.assign(body.owned(), Vector::Zero());
   mirror_forces_before_.assign(side_count(body.domain), Vector::Zero());
   inner_ = outer_ = outer_before_ = forces_before_ = residual_;
@@ -84,6 +85,7 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
 
 void Equilibrium::begin(double t, double dt) {
   t_ = t, dt_ = dt;
+  left_.clear();
   stretch_sides(t + dt);
   constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
   tools_.begin(body_, t, dt);
@@ -228,10 +230,6 @@ void Equilibrium::apply(const Field& field, Field& result) {
 
 void Equilibrium::commit() {
   largest_scale_ = std::max(largest_scale_, last_scale_);
-  for (int i = 0; i < body_.owned(); ++i) {
-    body_.velocity[i] = (body_.current(i) - committed_.place(i)) / dt_;
-    body_.previous_velocity[i] = body_.velocity[i];
-  }
   contact_.commit();
   tools_.commit();
   outer_before_ = outer_;
@@ -253,6 +251,34 @@ void Equilibrium::begin_flow_of_cells() {
   }
   body_.force_density = kept;
   committed_.restore_materials(body_);
+}
+
+// The deck's check (deck/sections/inertia.cpp) refuses the others, unless explicit steps follow, in which they break.
+bool Equilibrium::may_break() const {
+  const auto rests = [](const Period& period) { return period.stretch.is_constant(); };
+  return fracture_ && fracture_->breaks_at_rest(body_) && !tools_.any() && !contact_.any() && body_.heated.empty() &&
+         std::ranges::all_of(body_.domain.periods, rests);
+}
+
+std::int64_t Equilibrium::break_bonds() {
+  if (!breaks_) return 0;
+  const std::int64_t before = broken_bonds(body_);
+  fracture_->start_rest(body_);
+  const Field inner = inner_;
+  advance(dt_, t_ + dt_, true);
+  const std::int64_t broken = body_.domain.communicator.sum(broken_bonds(body_) - before) / 2;
+  if (broken == 0) return 0;
+  left_.resize(body_.owned());
+  for (int i = 0; i < body_.owned(); ++i) left_[i] = inner[i] - body_.domain.volume(i) * body_.force_density[i];
+  committed_.take(body_);
+  constraints_.emplace(held_directions(conditions_, body_, t_ + dt_, 0), body_);
+  return broken;
+}
+
+double Equilibrium::work_of_jump() const {
+  double sum = 0;
+  for (int i = 0; i < body_.owned(); ++i) sum -= 0.5 * left_[i].dot(body_.current(i) - committed_.place(i));
+  return sum;
 }
 
 std::vector<Tensor> Equilibrium::contact_springs() {

@@ -36,6 +36,15 @@ class Equilibrium {
   // condition is not finite.
   void begin(double t, double dt);
 
+  // Collective, after commit(). Breaks the bonds that are beyond their limit, at the same positions, and returns how
+  // many there are on all ranks. If any, it begins a step without motion of conditions: the forces that the bonds have
+  // left are held at first, and fade.
+  std::int64_t break_bonds();
+  // Collective. The largest stretch of a bond over the one at which it breaks, in the last trial; 0 if none breaks.
+  double largest_stretch() const { return breaks_ ? fracture_->largest_stretch(body_) : 0; }
+  // J, of the last trial on this rank: work of the forces that faded, at least 0 where a stable body lost bonds.
+  double work_of_jump() const;
+
   // Moves all points with periodic sides, from the committed positions.
   void follow_sides();
 
@@ -72,6 +81,7 @@ class Equilibrium {
   Vector start(int i) const { return committed_.place(i); }
   const contact::Contact& contact() const { return contact_; }
   contact::Contact take_contact() { return std::move(contact_); }
+  std::optional<Fracture> take_fracture() { return std::move(fracture_); }
   const Conditions& conditions() const { return conditions_; }
   // For the last trial: work of loads and of holding conditions over the step, by the mean of the forces at its ends, J
   // on this rank.
@@ -90,6 +100,7 @@ class Equilibrium {
   StepReport advance(double dt, double time, bool with_diagnostics) {
     return advance_by_any_step(body_, dt, time, with_diagnostics, fracture_ ? &*fracture_ : nullptr);
   }
+  bool may_break() const;
   void check_values();
   double force_of_expansion();
   void add_contact();
@@ -100,8 +111,9 @@ class Equilibrium {
   Body& body_;
   Conditions conditions_;
   contact::Contact contact_;
-  std::optional<Fracture> fracture_;  // no bond breaks, but springs lose stiffness with points that fail
+  std::optional<Fracture> fracture_;  // in trials no bond breaks, but springs lose stiffness with points that fail
   ToolContact tools_;
+  bool breaks_ = false;  // bonds break between trials
   Committed committed_;
   std::optional<Constraints> constraints_;
   double t_ = 0, dt_ = 0, round_off_ = 0, last_scale_ = 0, largest_scale_ = 0, expansion_scale_ = 0;
@@ -110,6 +122,7 @@ class Equilibrium {
   Field inner_;                                 // N, of the body alone
   Field forces_before_;                         // N, of the committed state
   Field outer_, outer_before_;                  // loads and reactions, N; at the start of the step
+  Field left_;                                  // N, of bonds that broke at its start; empty without
   Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors on this rank's points
   std::vector<Vector> looked_at_;               // positions at the last evaluation of contact, m
   std::vector<PointTangent> tangents_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <sstream>
+#include <utility>
 
 #include "base/errors.hpp"
 
@@ -18,6 +19,10 @@ constexpr int turn = 125;                // iterations of relaxation in each tur
 constexpr int most_rounds = 30;          // of the multipliers of tools, per step
 constexpr int easily = 6;                // iterations of Newton per round up to which the next step may be longer
 constexpr double round_off = 1e-9;
+
+// A load step after which a bond is stretched by more than this over its critical stretch is cut, because the bond
+// breaks with what it holds then, but not below the second, relative to the longest step: a crack may run in any step.
+constexpr double most_stretch = 1.02, finest_break = 1.0 / 16;
 
 // The balance error is relative to an energy of at least this multiple of the work of errors: a body that is only
 // carried along, or only expands, has no larger energy. Users get a warning from an error of 1 % on.
@@ -57,11 +62,15 @@ void QuasiStatic::extrapolate() {
 }
 
 Search QuasiStatic::search_from_start(bool with_tangent) {
-  newton_.begin_anew();  // else a resumed run would not continue like an uninterrupted one
-  relaxation_.begin_anew();
   equilibrium_.begin(time_, dt_);
   extrapolate();
-  // Rounds of the multipliers of tools, each from the equilibrium of the previous one.
+  return search_in_rounds(with_tangent);
+}
+
+// Rounds of the multipliers of tools, each from the equilibrium of the previous one.
+Search QuasiStatic::search_in_rounds(bool with_tangent) {
+  newton_.begin_anew();  // else a resumed run would not continue like an uninterrupted one
+  relaxation_.begin_anew();
   Search whole;
   for (int round = 0; round < most_rounds; ++round) {
     const Search last = search(with_tangent);
@@ -130,6 +139,7 @@ void QuasiStatic::serialize_steps(Archive& archive) {
   archive.number("external_work", external_);
   archive.number("work_of_tools", by_tools_);
   archive.number("work_of_friction", by_friction_);
+  archive.number("lost_in_jumps", in_jumps_);
   archive.number("largest_energy", largest_energy_);
 }
 
@@ -142,11 +152,11 @@ bool QuasiStatic::advance() {
   dt_ = std::min(dt_, final_time_ - time_);
   for (;;) {
     const Search search = attempt();
-    if (search.converged) {
+    if (search.converged && (equilibrium_.largest_stretch() <= most_stretch || dt_ <= finest_break * longest_)) {
       commit(search);
       return true;
     }
-    const std::string where = equilibrium_.weakest_point();
+    const std::string where = search.converged ? "" : equilibrium_.weakest_point();
     equilibrium_.go_back();
     if (search.interrupted) return false;
     dt_ *= 0.5;
@@ -158,27 +168,73 @@ bool QuasiStatic::advance() {
   }
 }
 
-void QuasiStatic::commit(const Search& search) {
+// The work of the last trial, by the mean of the forces at both ends.
+void QuasiStatic::take_work() {
+  const Communicator& ranks = equilibrium_.body().domain.communicator;
+  external_ += ranks.sum(equilibrium_.external_work());
+  by_tools_ += ranks.sum(equilibrium_.tool_work());
+  by_friction_ += ranks.sum(equilibrium_.friction_work());
+  largest_energy_ += above_errors * equilibrium_.work_of_errors(control_.tolerance.relative);
+}
+
+void QuasiStatic::commit(Search search) {
   Body& body = equilibrium_.body();
   equilibrium_.evaluate(true);
-  external_ += body.domain.communicator.sum(equilibrium_.external_work());
-  by_tools_ += body.domain.communicator.sum(equilibrium_.tool_work());
-  by_friction_ += body.domain.communicator.sum(equilibrium_.friction_work());
-  largest_energy_ += above_errors * equilibrium_.work_of_errors(control_.tolerance.relative);
+  take_work();
   last_step_.resize(body.owned());
-  for (int i = 0; i < body.owned(); ++i) last_step_[i] = body.current(i) - equilibrium_.start(i);
+  for (int i = 0; i < body.owned(); ++i) {
+    last_step_[i] = body.current(i) - equilibrium_.start(i);
+    body.velocity[i] = body.previous_velocity[i] = last_step_[i] / dt_;
+  }
   equilibrium_.commit();
+  const bool was_easy = search.iterations <= easily * search.rounds;
+  const std::int64_t broken = settle(search);
   last_dt_ = dt_;
   ++steps_;
   const double left = final_time_ - time_ - dt_;
   time_ = left > round_off * longest_ ? time_ + dt_ : final_time_;
-  char line[160];
-  std::snprintf(line, sizeof line,
-                "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, %.1e of the load left", steps_,
-                time_, dt_, search.iterations, search.evaluations,
-                search.left.scale > 0 ? search.left.norm / search.left.scale : 0.0);
-  observer_.load_steps(line);
-  if (!control_.with_tangent || search.iterations <= easily * search.rounds) dt_ = std::min(2 * dt_, longest_);
+  tell(search, broken);
+  if (!control_.with_tangent || was_easy) dt_ = std::min(2 * dt_, longest_);
+}
+
+// Bonds beyond their limit break at once, while conditions rest; the body goes to its next equilibrium, in which others
+// may be beyond theirs. Returns how many broke. It is not interrupted: between its equilibria a run could not go on.
+std::int64_t QuasiStatic::settle(Search& search) {
+  const auto stop_requested = std::exchange(observer_.stop_requested, [] { return false; });
+  std::int64_t all = 0;
+  while (const std::int64_t broken = equilibrium_.break_bonds()) {
+    all += broken;
+    const Search found = search_in_rounds(control_.with_tangent);
+    search.iterations += found.iterations, search.evaluations += found.evaluations, search.left = found.left;
+    if (!found.converged) raise_no_equilibrium(all);
+    equilibrium_.evaluate(true);
+    take_work();
+    in_jumps_ += equilibrium_.body().domain.communicator.sum(equilibrium_.work_of_jump());
+    equilibrium_.commit();
+  }
+  observer_.stop_requested = stop_requested;
+  return all;
+}
+
+void QuasiStatic::raise_no_equilibrium(std::int64_t broken) {
+  const std::string where = equilibrium_.weakest_point();
+  std::ostringstream text;
+  text
+      << "no equilibrium at t = " << time_ + dt_ << " s after " << broken
+      << " bonds broke: the crack runs through, or a piece is held by nothing; expected a motion that holds both sides "
+         "of it, shorter load steps, or explicit steps (Solver > Verlet): ";
+  raise_together(equilibrium_.body().domain.communicator, where.empty() ? "" : text.str() + where);
+}
+
+void QuasiStatic::tell(const Search& search, std::int64_t broken) const {
+  char line[200];
+  const int length = std::snprintf(
+      line, sizeof line, "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, %.1e of the load left",
+      steps_, time_, last_dt_, search.iterations, search.evaluations,
+      search.left.scale > 0 ? search.left.norm / search.left.scale : 0.0);
+  std::string text(line, length);
+  if (broken > 0) text += ", " + std::to_string(broken) + " bonds broke";
+  observer_.load_steps(text);
 }
 
 Ledger QuasiStatic::ledger() {
@@ -191,9 +247,10 @@ Ledger QuasiStatic::ledger() {
   now.external = external_ + now.expansion;
   now.tools = by_tools_;
   const double in_contact = body.domain.communicator.sum(contact().energy());
+  now.fracture = stored.fracture, now.jumps = in_jumps_;
   now.contact = by_friction_ - in_contact;
   // The energy that contact stores counts with the others: where every point is prescribed it is all there is.
-  now.balance(now.elastic + now.dissipated + now.stabilization + in_contact,
+  now.balance(now.elastic + now.dissipated + now.stabilization + now.fracture + now.jumps + in_contact,
               put_in_ + now.external + now.tools + by_friction_, largest_energy_);
   return now;
 }

@@ -29,6 +29,7 @@ class QuasiStatic {
   const contact::Contact& contact() const { return equilibrium_.contact(); }
   // When it is over, for steps that go on from here: contact remembers from where bodies touch.
   contact::Contact take_contact() { return equilibrium_.take_contact(); }
+  std::optional<Fracture> take_fracture() { return equilibrium_.take_fracture(); }
   const Conditions& conditions() const { return equilibrium_.conditions(); }
 
   // Collective. Makes one load step; false if the observer requested a stop before it was made. Throws Error on all
@@ -50,9 +51,14 @@ class QuasiStatic {
  private:
   Search attempt();
   Search search(bool with_tangent);
+  Search search_in_rounds(bool with_tangent);
   Search search_from_start(bool with_tangent);
   void extrapolate();
-  void commit(const Search& search);
+  void take_work();
+  void commit(Search search);
+  std::int64_t settle(Search& search);
+  void raise_no_equilibrium(std::int64_t broken);
+  void tell(const Search& search, std::int64_t broken) const;
   void serialize_steps(Archive& archive);
 
   Observer observer_;
@@ -63,7 +69,7 @@ class QuasiStatic {
   double time_, final_time_, longest_, dt_, last_dt_ = 0;
   Field last_step_;  // m, of the last load step
   int steps_ = 0, iterations_ = 0, evaluations_ = 0;
-  double put_in_ = 0, external_ = 0, by_tools_ = 0, by_friction_ = 0, largest_energy_ = 0;
+  double put_in_ = 0, external_ = 0, by_tools_ = 0, by_friction_ = 0, in_jumps_ = 0, largest_energy_ = 0;
 };
 
 }  // namespace strut

@@ -1,5 +1,7 @@
 #include "mechanics/formulation/tangent.hpp"
 
+#include <algorithm>
+
 #include "materials/tangent.hpp"
 #include "topology/parallel_for.hpp"
 
@@ -10,6 +12,7 @@ void Committed::take(const Body& body) {
   for (int i = 0; i < body.owned(); ++i) places_[i] = body.domain.sites[i].current;
   points_ = body.points;
   expansion_ = body.expansion;
+  fracture_energy_.assign(body.fracture_energy.begin(), body.fracture_energy.end());
   states_.clear(), viscous_.clear(), cells_.clear();
   for (const MaterialBlock& block : body.blocks) {
     states_.push_back(*block.state), viscous_.push_back(*block.viscous), cells_.push_back(*block.cells);
@@ -24,6 +27,7 @@ void Committed::restore(Body& body) const {
 void Committed::restore_materials(Body& body) const {
   body.points = points_;
   body.expansion = expansion_;
+  std::ranges::copy(fracture_energy_, body.fracture_energy.begin());
   for (std::size_t b = 0; b < states_.size(); ++b) {
     body.blocks[b].state = states_[b], body.blocks[b].viscous = viscous_[b], body.blocks[b].cells = cells_[b];
   }

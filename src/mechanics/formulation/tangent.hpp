@@ -28,6 +28,7 @@ class Committed {
   std::vector<CellPoints> cells_;
   std::vector<std::vector<ViscousPoint>> viscous_;
   std::vector<PointExpansion> expansion_;
+  std::vector<double> fracture_energy_;
 };
 
 // ∂P/∂F of a point, Pa. Entry (i, j) of a tensor has the number 3 j + i: columns one after the other.

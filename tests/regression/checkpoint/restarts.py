@@ -249,8 +249,25 @@ def cracking():
     return [text, section("Damage Models", section("brittle", model))]
 
 
+def parting():
+    """A bar, elastic by correspondence below and ordinary above, is torn in equilibria from one side to the other."""
+    text = "\n".join(press()).replace("press.", "parting.").replace("(plate)", "(head)").replace("Equivalent_Plastic_Strain", "Damage")
+    plate, flows = plane("plate", 13.62 * SPACING + GAP, -1, Travel_Z="-0.003*t"), keys(Yield_Stress=5e7)
+    hardens = section("Hardening", keys(Type="Power Law", Reference_Strain=0.00218, Exponent=0.1))
+    for part in (plate, flows, hardens):
+        assert part in text
+    head = section("head", keys(Type="Prescribed Displacement", Coordinate="z", Node_Set="head", Value="0.0006*t*(1 + 60*x)"))
+    text = text.replace(plate, head).replace(flows, "").replace(hardens, "").replace("Elastic Plastic", "Elastic")
+    upper = keys(Block_Names="block_2", Material="copper")
+    assert upper in text
+    text = text.replace(upper, keys(Block_Names="block_2", Material="steel"))
+    material = '<Parameter name="Material" '
+    text = text.replace(material, keys(Damage_Model="brittle") + material)
+    return [text, section("Damage Models", section("brittle", keys(Damage_Model="Critical Stretch", Critical_Stretch=0.02)))]
+
+
 SCENES = {"impact": impact, "press": press, "rubbing": rubbing, "cells": cells, "periodic": periodic, "stretched": stretched,
-          "breaking": breaking, "tearing": tearing, "cracking": cracking}
+          "breaking": breaking, "tearing": tearing, "cracking": cracking, "parting": parting}
 
 
 class Test:
