@@ -4,8 +4,9 @@
 // times e. The energy density of a bond, per product of both ends' volumes, is
 //   w = ½ ω [ (a_i + a_j) |ξ| + (b_i + b_j) e ] e,  J/m⁶,
 // and Σ V_i V_j w over all bonds is the energy of all points. Under proportional stretch, w is the work done on the
-// bond. A bond of points by correspondence has no such energy: its force is not along the bond, so that its work
-// depends on the rotation of the body.
+// bond. Ends that expand with the temperature, by ε, have extensions e − ε |ξ| of their own in the place of e. A bond
+// of points by correspondence has no such energy: its force is not along the bond, so that its work depends on the
+// rotation of the body.
 //
 // w is that of the end of the last step, because a_j of a ghost is known only then.
 #pragma once
@@ -34,7 +35,8 @@ class BondEnergies {
 
   // Calls visit(n, load, slack) for each of the n neighbors of a cluster: load = w/w_c, or 0 if the bond holds for any
   // w; slack = the relative displacement (m) of two points below which w cannot reach w_c, the lesser of the two ends'.
-  // A bond in compression has w = 0. `places`: positions of owned points and ghosts at the time of the states, m.
+  // A bond that is no longer than its ends have expanded, on the mean, has w = 0. `places`: positions of owned points
+  // and ghosts at the time of the states, m.
   template <class Visit>
   void over(const Body& body, const Cluster& cluster, const std::vector<Vector>& places, const Visit& visit) const;
 
@@ -44,14 +46,15 @@ class BondEnergies {
   using Lanes = bonds::Lanes;
   static constexpr double never = std::numeric_limits<double>::infinity();
 
-  // Data of a bond's end: w_c; a; b; the largest growth of |a| if points move apart by 1 m.
+  // Data of a bond's end: w_c; a; b; the largest growth of |a| if points move apart by 1 m; ε.
   struct Point {
-    double limit = never, a = 0, b = 0, growth = 0;
+    double limit = never, a = 0, b = 0, growth = 0, expansion = 0;
   };
+  void take_expansions(const Body& body);
   struct Held {
     Lanes load, room;
   };
-  static Held held(const std::array<Lanes, 4>& own, const Point& there, const Lanes& omega, const Lanes& rest,
+  static Held held(const std::array<Lanes, 5>& own, const Point& there, const Lanes& omega, const Lanes& rest,
                    const Lanes& extension);
 
   std::vector<Point> points_;    // owned points and ghosts; empty if no block has a critical bond energy
@@ -61,16 +64,21 @@ class BondEnergies {
 // When a bond breaks, the body loses the energy 2 w − ½ ω (b_i + b_j) e², because the bond's part of θ vanishes, too.
 // If this is negative, as under pressure, the bond holds. (The change of θ at both ends by the break is neglected.)
 //
+// Ends that have expanded unequally have the extensions e − u and e + u. What u adds is a product of two differences of
+// both ends, so that both get the same bits.
+//
 // With |a| ≤ |a₀| + growth·d and e ≤ max(e₀, 0) + d, the relative displacement d at which w can first reach w_c is the
 // root of a quadratic equation.
-inline BondEnergies::Held BondEnergies::held(const std::array<Lanes, 4>& own, const Point& there, const Lanes& omega,
+inline BondEnergies::Held BondEnergies::held(const std::array<Lanes, 5>& own, const Point& there, const Lanes& omega,
                                              const Lanes& rest, const Lanes& extension) {
   const Lanes limit = own[0].min(there.limit), a = own[1] + there.a, b = own[2] + there.b;
-  const Lanes stretched = extension.max(0.0), pull = a * rest + b * stretched;
+  const Lanes mean = 0.5 * (own[4] + there.expansion), u = 0.5 * (own[4] - there.expansion) * rest;
+  const Lanes stretched = (extension - mean * rest).max(0.0), pull = a * rest + b * stretched;
   const Lanes constant = a.abs() * rest + b * stretched, slope = (own[3] + there.growth) * rest + b;
   const Lanes half = 0.5 * (constant + slope * stretched), left = 2 * limit / omega - constant * stretched;
-  const Lanes released = pull + a * rest;
-  return {(released > 0).select(0.5 * omega * pull * stretched / limit, 0.0),
+  const Lanes by_a = u * ((there.a - own[1]) * rest), by_b = 2 * u * (there.b - own[2]) * stretched + b * u.square();
+  const Lanes twice = pull * stretched + (by_a + by_b), released = (pull + a * rest) * stretched + (2 * by_a + by_b);
+  return {(stretched > 0 && released > 0).select(0.5 * omega * twice / limit, 0.0),
           ((half.square() + slope * left).max(0.0).sqrt() - half) / slope};
 }
 
@@ -80,7 +88,7 @@ void BondEnergies::over(const Body& body, const Cluster& cluster, const std::vec
   const Site* sites = body.domain.sites.data();
   const bonds::OfCluster family{cluster};
   const auto y = family.own<3>([&](int i) { return places[i].data(); });
-  const auto own = family.own<4>([&](int i) { return &points_[i].limit; });
+  const auto own = family.own<5>([&](int i) { return &points_[i].limit; });
   const Lanes horizon = family.own<1>([&](int i) { return sites[i].current.data() + 3; })[0];
   bonds::with_influence(body.influence, [&]<class Weight>(Weight) {
     std::size_t n = 0;

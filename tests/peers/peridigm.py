@@ -173,8 +173,10 @@ def reasons(end, said):
     if end in ("refused", "stopped"):
         problems = [line.strip() for line in lines if line.startswith("  ") and ": " in line and "%" not in line[:6]]
         return problems if end == "refused" and problems else lines[-1:]
-    return [re.split(r" (?:is|has|goes|are|have|holds|falls|weighs|counts) ", line)[0].split(" > ", 1)[1]
+    told = [re.split(r" (?:is|has|goes|are|have|holds|falls|weighs|counts) ", line)[0].split(" > ", 1)[1]
             for line in lines if re.match(r"[A-Z][\w ]+ > ", line)]
+    told += [line.split(";")[0].split(":")[0] for line in lines if re.match(r"Blocks .*Peridigm", line)]
+    return list(dict.fromkeys(told))
 
 
 def row(deck, arguments):

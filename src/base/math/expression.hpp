@@ -58,7 +58,7 @@ class Expression {
   // Limits: decks are written by hand, or their expressions by programs at most.
   static constexpr std::size_t longest = 10000;  // characters, without the numbers of tables
   static constexpr int deepest = 100;            // nesting of brackets, signs and blocks
-  static constexpr int most_variables = 32;      // including x y z t value
+  static constexpr int most_variables = 64;      // including x y z t value
 
  private:
   friend class ExpressionParser;

@@ -212,6 +212,13 @@ TEST(Function, OnlyComputesAndEnds) {
   for (int n = 0; n < 90; ++n) right = "(0 || 1 && 1 == 1 < 2 + 3 * " + right + ")";
   EXPECT_EQ(Function::parse(right)(3, 0, 0, 0), 1);
   EXPECT_THROW(Function::parse("x" + std::string(10000, '-') + "x"), Error);
+  const auto declared = [](int n) {
+    std::string text;
+    for (int k = 0; k < n; ++k) text += "double v" + std::to_string(k) + " = " + std::to_string(k) + "; ";
+    return text + "value = v" + std::to_string(n - 1) + ";";
+  };
+  EXPECT_EQ(Function::parse(declared(59))(0, 0, 0, 0), 58);
+  EXPECT_THROW(Function::parse(declared(60)), Error);
 }
 
 // An amplitude that was measured has tens of thousands of rows, which a look-up does not pass one by one.

@@ -218,6 +218,36 @@ TEST(BondEnergy, OfAPairIsThatOfItsDilatation) {
   }
 }
 
+// The same pair, whose ends expand by ε and 3 ε: e/|ξ| − 2 ε ± ε are their strains, and W = 9/2 K (strain)² of each.
+TEST(BondEnergy, CountsExtensionsBeyondTheExpansion) {
+  constexpr double spacing = 1e-3, strain = 1e-4, growth = 0.6e-4;
+  const Communicator world;
+  const double bulk = young / (3 * (1 - 2 * poisson)), volume = spacing * spacing * spacing;
+  BlockMaterial material{density, elastic(young, poisson), NoStabilization(), Formulation::ordinary};
+  material.damage = DamageModel{.critical_bond_energy = 9 * bulk * strain * strain / volume};
+  material.thermal_expansion = growth;
+  Body body = lattice_body({{1, 1, 2}, spacing, 1.5, 0, Influence::one, material}, world);
+  std::vector<int> all(body.owned());
+  std::iota(all.begin(), all.end(), 0);
+  add_heated(body, {all, Function::parse("t*(z > 1e-3 ? 3 : 1)")});
+  set_reference_temperatures(body, 0);
+  Fracture fracture(body);
+  advance_stress_and_force(body, 0, false, &fracture);
+  const double even = std::sqrt(strain * strain - growth * growth);
+  const auto broken_at = [&](double e) {
+    deform(body, fracture,
+           [&](const Vector& X) -> Vector { return X + Vector(0, 0, X[2] > spacing ? e * spacing : 0); });
+    advance_by_any_step(body, 1, 1, false, &fracture);
+    fracture.start_step(body, body.velocity, 0);
+    advance_by_any_step(body, 1, 1, false, &fracture);  // by what the first step has ended with
+    return world.sum(broken_bonds(body));
+  };
+  EXPECT_EQ(broken_at(2 * growth - 2 * even), 0);  // shorter than it has expanded
+  EXPECT_EQ(broken_at(2 * growth + (1 - 1e-6) * even), 0);
+  EXPECT_EQ(broken_at(2 * growth + (1 + 1e-6) * even), 2);
+  EXPECT_NEAR(stored_energies(body).fracture / (9 * bulk * strain * strain * volume), 1, 1e-5);  // as above
+}
+
 // Where bonds have broken others may hold more than before (ν = 0: a dilatation takes from what they hold), and break
 // without any motion: found, as if all bonds were looked at in every step.
 TEST(BondEnergy, BreaksOfOthersAreSeen) {
