@@ -267,7 +267,10 @@ std::int64_t Equilibrium::break_bonds() {
   const Field inner = inner_;
   advance(dt_, t_ + dt_, true);
   const std::int64_t broken = body_.domain.communicator.sum(broken_bonds(body_) - before) / 2;
-  if (broken == 0) return 0;
+  if (broken == 0) {
+    committed_.restore_materials(body_);  // to the last bit, whether a checkpoint is written here or not
+    return 0;
+  }
   left_.resize(body_.owned());
   for (int i = 0; i < body_.owned(); ++i) left_[i] = inner[i] - body_.domain.volume(i) * body_.force_density[i];
   committed_.take(body_);

@@ -643,8 +643,18 @@ TEST(DeckOfPeridigm, DamageThatIsNotKnownIsRefused) {
           "Discretization > Bond Filters > notch > Normal_X: the vector has no length");
   refused("Radius: 0.2", "Radius: 0.0", "Discretization > Bond Filters > notch > Radius: ");
   EXPECT_NO_THROW(folder.read(changed(fracturing, "\"Elastic\"", "\"Elastic Correspondence\"")));  // mean gradient
-  EXPECT_NO_THROW(
-      folder.read(changed(fracturing, "Verlet: {Safety Factor: 0.7}", "QuasiStatic: {Number of Load Steps: 1}")));
+  const std::string still =
+      changed(fracturing, "Verlet: {Safety Factor: 0.7}", "QuasiStatic: {Number of Load Steps: 1}");
+  EXPECT_NE(folder.error(still).find("Blocks > all of it > Damage Model: bonds cannot break with Solver > QuasiStatic"),
+            std::string::npos);
+  const std::string breaking = changed(still, "Damage Model: \"growing\"", "Damage Model: \"brittle\"");
+  EXPECT_NO_THROW(folder.read(breaking));
+  const std::string warmed =
+      breaking +
+      "  Boundary Conditions:\n    warmth: {Type: \"Prescribed Temperature\", Node Set: \"all\", Value: \"300\"}\n";
+  EXPECT_NE(folder.error(warmed).find("Boundary Conditions > warmth > Type: given beside a Damage Model"),
+            std::string::npos)
+      << folder.error(warmed);
 }
 
 // Ours, in the same deck.
