@@ -10,7 +10,7 @@ namespace strut::deck {
 
 namespace {
 
-// Equilibria in which bonds break are verified with prescribed motion and body forces only.
+// Equilibria in which bonds break are verified with prescribed motion and periodic sides that rest only.
 void check_what_acts_on_cracks(const std::vector<Condition>& conditions,
                                const std::vector<ContactModel>& contact_models, Problems& problems) {
   const std::string unlike =
@@ -19,7 +19,9 @@ void check_what_acts_on_cracks(const std::vector<Condition>& conditions,
     const PeriodicSides* sides = std::get_if<PeriodicSides>(&condition.kind);
     const bool moving_sides = sides && !sides->stretch.is_constant();
     const bool is_tool = std::holds_alternative<RigidTool>(condition.kind);
-    if (!moving_sides && !is_tool && !std::holds_alternative<PrescribedTemperature>(condition.kind)) continue;
+    const bool is_other = std::holds_alternative<PrescribedTemperature>(condition.kind) ||
+                          std::holds_alternative<SymmetryPlane>(condition.kind);
+    if (!moving_sides && !is_tool && !is_other) continue;
     problems.add("Boundary Conditions > " + condition.name + (moving_sides ? " > Stretch" : " > Type"),
                  "given" + unlike + (is_tool ? ", or Prescribed Displacement" : ""));
   }

@@ -257,7 +257,7 @@ void Equilibrium::begin_flow_of_cells() {
 bool Equilibrium::may_break() const {
   const auto rests = [](const Period& period) { return period.stretch.is_constant(); };
   return fracture_ && fracture_->breaks_at_rest(body_) && !tools_.any() && !contact_.any() && body_.heated.empty() &&
-         std::ranges::all_of(body_.domain.periods, rests);
+         body_.domain.mirrors.empty() && std::ranges::all_of(body_.domain.periods, rests);
 }
 
 std::int64_t Equilibrium::break_bonds() {
