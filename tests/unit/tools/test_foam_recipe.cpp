@@ -260,7 +260,11 @@ TEST_F(FoamRecipe, WrongRecipesAreRefused) {
       {lattice + "octet\nthickness = 0.1\n" + density, "thickness and relative_density exclude each other"},
       {lattice + "gyroid\nthickness = 0.1\n", "has no thickness"},
       {lattice + "bcc\nsize = 1 1 1\n" + density, "count and size exclude each other"},
-      {lattice + "bcc\nseed = 2\n" + density, "a lattice has no key 'seed'"}};
+      {lattice + "bcc\nseed = 2\n" + density, "a lattice has no key 'seed'"},
+      {"shape = lattice\nlattice = bcc\nsize = 1.7 1 1\ncell = 1\nspacing = 0.05\nperiodic = x\n" + density,
+       "periodic along x, but 1.7 cells of 1 m"},
+      {"shape = lattice\nlattice = octet\nsize = 1 1 1\ncell = 1\nspacing = 0.1\nrelative_density = 0.3\n",
+       "many voxels are equally far from the edges and come together"}};
   for (const auto& [recipe, part] : wrong) {
     const testing::Outcome outcome = make(recipe);
     EXPECT_EQ(outcome.status, 1) << recipe;
