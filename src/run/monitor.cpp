@@ -206,10 +206,6 @@ void Monitor::check_meeting(double time, const Conditions& conditions, const std
 
 void Monitor::serialize(Archive& archive) {
   archive.number("first_step", first_step_);
-  std::size_t pairs = overlapped_.size();
-  archive.number("pairs_of_tools", pairs);
-  overlapped_.resize(pairs);
-  for (std::size_t n = 0; n < pairs; ++n) archive.number("overlapped_" + std::to_string(n), overlapped_[n]);
   archive.number("ledgers", ledgers_);
   archive.number("next_look", next_look_);
   archive.number("told_error", told_error_);
