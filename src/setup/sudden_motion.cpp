@@ -175,9 +175,9 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
     const Function& value = displacement_of(deck.conditions[c])->value;
     std::ostringstream text;
     const double u = value.evaluate(found[c].one[0], found[c].one[1], found[c].one[2], t);
-    text << (u == 0 ? 0 : u) << " m at the initial time, t = " << t << " s, where the body is displaced otherwise: by "
-         << place_text(found[c].displacement) << " at " << place_text(found[c].one) << ", likewise "
-         << found[c].count - 1 << " other points";
+    text << (u == 0 ? 0 : u) << " m at the initial time, t = " << t << " s, where the body is displaced otherwise, by "
+         << place_text(found[c].displacement) << ", at " << place_text(found[c].one) << " and " << found[c].count - 1
+         << " other points";
     if (deck.solver.quasi_static && !deck.start_from) {
       told << value.path() << " is " << text.str() << ": the first load step takes all of it\n";
     } else {
