@@ -61,17 +61,15 @@ BondEnergies::BondEnergies(const Body& body) : concerned_(concerned_blocks(body)
   body.domain.halo.exchange<unchanged>(points_);
 }
 
-// As it was when the force states were summed: the step that begins has its ε already.
 void BondEnergies::take_expansions(const Body& body) {
   if (body.expansion.empty()) return;
-  for (int i = 0; i < body.owned(); ++i) points_[i].expansion = body.expansion[i].before;
+  for (int i = 0; i < body.owned(); ++i) points_[i].expansion = body.expansion[i].now;
   body.domain.halo.exchange<unchanged>(points_);
 }
 
 std::vector<char> BondEnergies::take_states(const Body& body, double travel) {
   constexpr double margin = 1 + 1e-6;  // for round-off
   std::vector<char> jumped;
-  take_expansions(body);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point& point = points_[i];
     const double a = body.force_states.scalars[i].a + point.b * point.expansion, change = std::abs(a - point.a);

@@ -152,6 +152,7 @@ void Fracture::start_step(const Body& body, std::span<const Vector> velocities, 
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
   is_looked_at_ = is_due || limits_change(body) || any_fails || energies_.any();
   if (is_looked_at_) keep_start(body);
+  if (energies_.any()) energies_.take_expansions(body);
 }
 
 bool Fracture::breaks_at_rest(const Body& body) const {
