@@ -17,7 +17,7 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
 // as it was read, before the deck's initial time where these conditions follow others.
 void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, const Communicator& communicator);
 
-// What goes on as in the other run.
+// The parts of the other run that this run continues without a change: its time steps, its conditions.
 struct Kept {
   bool steps = false, conditions = false;
 };
