@@ -10,6 +10,10 @@ constexpr bool all_keep_the_contract(const std::variant<Laws...>*) {
 }
 static_assert(all_keep_the_contract(static_cast<const AnyLaw*>(nullptr)));
 
+Moduli moduli_of(const AnyLaw& law) {
+  return std::visit([](const auto& one) -> Moduli { return one.moduli(); }, law);
+}
+
 std::optional<AnyLaw> failing(const AnyLaw& metal, const Ductility& ductility) {
   if (const auto* cold = std::get_if<J2>(&metal)) return Ductile{*cold, ductility};
   if (const auto* hot = std::get_if<ThermalJ2>(&metal)) return ThermalDuctile{*hot, ductility};

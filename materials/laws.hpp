@@ -21,6 +21,9 @@ namespace strut::materials {
 using AnyLaw = std::variant<Elastic, Brittle, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck,
                             PolymerFoam, Hyperelastic, UserLaw>;
 
+// The elastic moduli of the undeformed solid.
+Moduli moduli_of(const AnyLaw& law);
+
 // The law of a metal whose points may fail; nullopt if there is none.
 std::optional<AnyLaw> failing(const AnyLaw& metal, const Ductility& ductility);
 

@@ -75,7 +75,7 @@ std::string breaks_under_pressure(const Situation& situation) {
   for (const MaterialBlock& block : body.blocks) {
     const auto& damage = block.material.damage;
     if (!damage || !block.is_ordinary()) continue;
-    const auto [bulk, shear] = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
+    const auto [bulk, shear] = materials::moduli_of(block.material.law);
     if (!(bulk > (5.0 / 3 + 1e-9) * shear)) continue;
     text += "block '" + block.name + "': bonds break by their " +
             (damage->critical_bond_energy ? "energy" : "stretch") + ", and Poisson's ratio is above 0.25: " +

@@ -25,7 +25,7 @@ constexpr double least_size = 1e-8, most_size = 1e3, long_for_waves = 0.5;  // m
 
 // Speed of longitudinal waves in the undeformed material, m/s.
 double wave_speed(const BlockMaterial& material) {
-  const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
+  const double modulus = materials::moduli_of(material.law).longitudinal();
   return std::sqrt(modulus / material.density);
 }
 

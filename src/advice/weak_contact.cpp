@@ -44,7 +44,7 @@ std::vector<Side> sides_of(const Body& body, const std::vector<double>& spacings
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const BlockMaterial& material = body.blocks[b].material;
     const BlockHorizons& horizons = body.domain.blocks[b];
-    const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
+    const double modulus = materials::moduli_of(material.law).longitudinal();
     sides.push_back({body.domain.cloud.block_names[b], spacings[b], 0.5 * (horizons.smallest + horizons.largest),
                      modulus, std::sqrt(modulus * material.density), sums[2 * b], sums[2 * b + 1],
                      flow_stress(material)});

@@ -30,7 +30,7 @@ NonReflectingEnd NonReflectingEnd::on(std::vector<int> points, int at, const Bod
   NonReflectingEnd end{.normal = normal, .place = at};
   for (const int i : points) {
     const BlockMaterial& material = body.blocks[body.domain.cloud.blocks[i]].material;
-    const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, material.law);
+    const auto moduli = materials::moduli_of(material.law);
     const double s = body.domain.cloud.spacings[i];
     end.drags.push_back({.point = i,
                          .along = 2 / s * std::sqrt(moduli.longitudinal() / material.density),

@@ -46,8 +46,7 @@ BondEnergies::BondEnergies(const Body& body) : concerned_(concerned_blocks(body)
   for (std::size_t number = 0; number < body.blocks.size(); ++number) {
     if (!concerned_[number]) continue;
     const MaterialBlock& block = body.blocks[number];
-    const auto moduli =
-        std::visit([](const auto& law) -> materials::Moduli { return law.moduli(); }, block.material.law);
+    const auto moduli = materials::moduli_of(block.material.law);
     const auto& damage = block.material.damage;
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const int i = block.points[k];

@@ -157,7 +157,7 @@ double longest_bond(const Body& body, const MaterialBlock& block) {
 PulledLattice lattice_of(const Body& body, std::size_t b) {
   const BlockMaterial& material = body.blocks[b].material;
   const BlockHorizons& of_block = body.domain.blocks[b];
-  const auto moduli = std::visit([](const auto& law) -> materials::Moduli { return law.moduli(); }, material.law);
+  const auto moduli = materials::moduli_of(material.law);
   const double horizon = body.blocks[b].is_quadratic() ? longest_bond(body, body.blocks[b]) : of_block.largest;
   return {of_block.spacing,
           horizon,

@@ -17,7 +17,7 @@ double energy_of_round_off(const Body& body) {
   constexpr double strain = 1e-12, of_quadratic = 1e-11;  // its canceling terms are larger
   double sum = 0;
   for (const MaterialBlock& block : body.blocks) {
-    const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
+    const double modulus = materials::moduli_of(block.material.law).longitudinal();
     const double squared = std::pow(block.is_quadratic() ? of_quadratic : strain, 2);
     for (const int i : block.points) sum += squared * modulus * body.domain.volume(i);
   }

@@ -36,7 +36,7 @@ PointEnergy law_energy(const Body& body, const MaterialBlock& block, std::size_t
 // ½ K θ² + 15μ/(2m) Σ ω V (e − θ|ξ|/3)²; for a whole family the sum is Σ ω V e² − m θ²/9. With the initial m, this
 // stays the potential of the forces as bonds break.
 double ordinary_energy(const MaterialBlock& block, const OrdinaryPoint& point, double square) {
-  const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
+  const auto moduli = materials::moduli_of(block.material.law);
   const double theta2 = point.dilatation * point.dilatation;
   return 0.5 * moduli.bulk * theta2 + 7.5 * moduli.shear * (square / point.weighted_volume - theta2 / 9);
 }

@@ -86,7 +86,7 @@ ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& ma
 }
 
 void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetric& inverse) {
-  const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
+  const double modulus = materials::moduli_of(block.material.law).longitudinal();
   MaterialPoint& point = body.points[block.points[k]];
   inverse = block.is_ordinary() ? inverse_of(K) : symmetric_part(K.inverse());
   if (!inverse.allFinite()) inverse.setZero();  // of a cell that carries no stress

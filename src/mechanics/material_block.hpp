@@ -100,10 +100,7 @@ struct MaterialBlock {
     return state_in<L>(state, place);
   }
   // The elastic moduli of an integration point in its present state.
-  materials::Moduli moduli(std::size_t place) const {
-    return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, state_of<L>(place)); },
-                      material.law);
-  }
+  materials::Moduli moduli(std::size_t place) const;
 
   bool is_ordinary() const { return material.formulation == Formulation::ordinary; }
   bool is_quadratic() const { return material.formulation == Formulation::quadratic; }

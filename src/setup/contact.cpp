@@ -45,7 +45,7 @@ std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const 
 
 void set_surface_laws(const Body& body, std::vector<contact::Interaction>& interactions) {
   const auto modulus = [&body](int block) {
-    return std::visit([](const auto& law) { return law.moduli().longitudinal(); }, body.blocks[block].material.law);
+    return materials::moduli_of(body.blocks[block].material.law).longitudinal();
   };
   for (contact::Interaction& one : interactions) {
     auto* law = std::get_if<contact::SurfaceLaw>(&one.model.law);

@@ -144,7 +144,7 @@ double longest_step(const Body& body) {
   double longest = 0;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const BlockMaterial& material = body.blocks[b].material;
-    const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
+    const double modulus = materials::moduli_of(material.law).longitudinal();
     longest = std::max(longest, body.domain.blocks[b].spacing * std::sqrt(material.density / modulus));
   }
   return longest;

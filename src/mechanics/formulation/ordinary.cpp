@@ -23,7 +23,7 @@ Lanes expansions(const Body& body, const LaneGroup& group) {
 // ∂W/∂ε = −θ [(3K − 5μ) s + 5μ], s the part of m that intact bonds hold.
 template <class Weight>
 __attribute__((noinline)) void expand(Body& body, MaterialBlock& block, Weight weight, const LaneGroup& group) {
-  const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
+  const auto moduli = materials::moduli_of(block.material.law);
   const bonds::OfCluster family{*group.cluster};
   const Site* sites = body.domain.sites.data();
   const bonds::OfExpanded extension(family, expansions(body, group));
@@ -43,7 +43,7 @@ __attribute__((noinline)) void expand(Body& body, MaterialBlock& block, Weight w
 
 template <class Weight>
 void advance_points(Body& body, MaterialBlock& block, Weight weight, const LaneGroups& groups, WorstFailure& failure) {
-  const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
+  const auto moduli = materials::moduli_of(block.material.law);
   for_each_point(0, groups.count(), [&, weight](int g) {
     const LaneGroup group = groups[g];
     const bonds::OfCluster family{*group.cluster};
@@ -76,7 +76,7 @@ Symmetric present_shape_inverse(const Body& body, int i) {
 
 template <class Weight>
 void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const LaneGroups& groups) {
-  const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
+  const auto moduli = materials::moduli_of(block.material.law);
   for_each_point(0, groups.count(), [&, weight](int g) {
     const LaneGroup group = groups[g];
     const bonds::OfCluster family{*group.cluster};
