@@ -61,9 +61,8 @@ BondEnergies::BondEnergies(const Body& body) : concerned_(concerned_blocks(body)
 }
 
 void BondEnergies::take_expansions(const Body& body) {
-  if (body.expansion.empty()) return;
-  for (int i = 0; i < body.owned(); ++i) points_[i].expansion = body.expansion[i].now;
-  body.domain.halo.exchange<unchanged>(points_);
+  const std::vector<double>& expansions = body.expansion_of_sites;
+  for (std::size_t i = 0; i < expansions.size(); ++i) points_[i].expansion = expansions[i];
 }
 
 std::vector<char> BondEnergies::take_states(const Body& body, double travel) {

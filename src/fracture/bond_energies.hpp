@@ -28,7 +28,7 @@ class BondEnergies {
   bool any() const { return !points_.empty(); }
   bool any_of(std::size_t block) const { return any() && concerned_[block]; }
 
-  // Collective, before the points of a step get their next expansion: takes the one that the force states have.
+  // Before the points of a step get their next expansion: takes the one that the force states have.
   void take_expansions(const Body& body);
   // At the start of a step, stores the force states of the last sum of forces. Returns a flag for each owned point and
   // ghost whose a changed by more than a relative displacement of two points by `travel` (m) explains: bonds of it have

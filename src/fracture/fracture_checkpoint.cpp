@@ -5,6 +5,7 @@
 
 #include "fracture/broken_family.hpp"
 #include "fracture/fracture.hpp"
+#include "mechanics/expansion.hpp"
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/reflected.hpp"
 #include "mechanics/steepness.hpp"
@@ -71,12 +72,14 @@ void Fracture::serialize(Archive& archive, Body& body) {
 
 namespace {
 
-// The next step needs the failed points and the force states of ordinary points before force states are exchanged.
+// The next step needs the failed points, and the force states and expansion of ordinary points, before it exchanges
+// them.
 void exchange_states(Body& body) {
   ForceStates& states = body.force_states;
   const Domain& domain = body.domain;
   if (!states.scalars.empty()) domain.halo.exchange(states.scalars);
   if (!states.gradients.empty()) domain.halo.exchange(states.gradients);
+  if (!body.expansion.empty()) exchange_expansion(body);
   std::vector<double> failed(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) failed[i] = states.has_failed(i);
   domain.halo.exchange(failed);

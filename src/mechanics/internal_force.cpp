@@ -16,7 +16,7 @@ StepReport together(const PerThread<StepReport>& reports) {
 StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics, BondBreaking* breaking) {
   static Teuchos::Time& deforming = phase("Deformation and stress");
   set_expansion(body, pass.time, pass.dt);
-  if (breaking && pass.dt > 0 && !body.expansion.empty()) exchange_expansion(body);
+  if (breaking && !body.expansion.empty()) exchange_expansion(body);
   PerThread<StepReport> reports;  // one per thread: threads share the strips of a lattice
   const Displacements u{body.domain.sites.data()};
   const auto advance = [&](MaterialBlock& block, const LaneGroups& groups) {

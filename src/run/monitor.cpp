@@ -24,6 +24,9 @@ constexpr double much_in_springs = 0.1;
 // Stretch of neighbors, in spacings, above which the material between them is not resolved any more.
 constexpr double far_stretched = 8;
 
+// Above this largest |ln det F| what rate laws store may be the cause of a warning: it errs by a third of that.
+constexpr double much_volume = 0.02;
+
 // The balance error worth a warning, relative to the largest energy; the limit of a gain, relative to that of a loss.
 constexpr double worth_telling = 0.01, of_gains = 0.2;
 
@@ -56,7 +59,32 @@ std::string at(double time) {
   return text.str();
 }
 
-std::string balance_of(const Ledger& ledger, bool expands) {
+// True for laws that follow from rates alone: they have no energy, and J σ:ε/2 of the present stress is taken for it.
+bool is_of_rates(const MaterialBlock& block) {
+  if (block.is_ordinary()) return false;
+  return std::visit(
+      []<class L>(const L& law) {
+        return !requires(const typename L::State& state) { law.stored_energy(state); };
+      },
+      block.material.law);
+}
+
+// Collective. The largest |ln det F| of the points of such laws.
+double largest_volume_change(const Body& body) {
+  double largest = 0;
+  for (const MaterialBlock& block : body.blocks) {
+    if (!is_of_rates(block)) continue;
+    for (const int i : block.points) {
+      const double J = body.points[i].deformation_gradient.determinant();
+      if (J > 0) largest = std::max(largest, std::abs(std::log(J)));
+    }
+  }
+  return body.domain.communicator.max(largest);
+}
+
+// Collective.
+std::string balance_of(const Ledger& ledger, const Body& body) {
+  const double change = largest_volume_change(body);
   std::ostringstream text;
   text << "the balance of energy has an error of " << 100 * ledger.balance_error << " % of the largest energy, "
        << std::abs(ledger.gained) << " J "
@@ -64,11 +92,15 @@ std::string balance_of(const Ledger& ledger, bool expands) {
        << " is too coarse in time (Watch > Balance Error). Likely causes: a Fixed dt above the critical time step, a "
           "load too sudden, too few load steps, contact or a tool with a Mass that meets points with substeps "
           "(Subcycling)"
-       << (expands
+       << (!body.expansion.empty()
                ? ", thermal expansion of a law without an energy of its own, whose balance errs by some part of the "
                  "thermal strain"
-               : "")
-       << "; the last frame shows where points fly off";
+               : "");
+  if (change > much_volume) {
+    text << ", the law of points whose volume has changed by a factor of up to " << std::exp(change)
+         << ": it follows from rates alone, and what it stores errs by up to " << 100 * change / 3 << " %";
+  }
+  text << "; the last frame shows where points fly off";
   return text.str();
 }
 
@@ -224,8 +256,9 @@ void Monitor::check_energy(const Ledger& ledger, bool last) {
   const double error = ledger.balance_error;
   next_energy_ = ledger.time + pause_;
   if (++ledgers_ <= first_ledgers && !last && std::isfinite(error)) return;
-  const std::string text = at(ledger.time) + balance_of(ledger, !body_.expansion.empty());
   const double limit = (ledger.gained > 0 ? of_gains : 1) * limits_.balance_error;
+  const bool is_told = !(error <= std::min(limit, worth_telling));
+  const std::string text = is_told ? at(ledger.time) + balance_of(ledger, body_) : "";
   if (!(error <= limit)) {
     const std::string once = body_.domain.communicator.rank() == 0 ? text : "";
     passed(energy, once);

@@ -70,7 +70,7 @@ class Differences {
   void tell_of_damage() {
     tell_of_field("Damage",
                   "weighs each broken bond by the volume of its other end; Peridigm counts bonds: the same where all "
-                  "points of a family have one volume");
+                  "points of a family have one volume, else by at most the ratio of the largest to the smallest");
     tell_of_field("Number_Of_Neighbors", "falls as bonds break; in Peridigm it stays");
     const std::set<std::string> models = values_of("Damage Model");
     if (models.contains("") && models.size() > 1) {
@@ -83,7 +83,8 @@ class Differences {
   void tell_of_horizons() {
     problems_.note("Blocks",
                    "have horizons of their own: points of two of them are neighbors below the mean of both, and feel "
-                   "each other's forces; in Peridigm each takes those within its own horizon. Points as far apart as a "
+                   "each other's forces; in Peridigm each takes those within its own horizon, which reaches half the "
+                   "difference of both farther, or less far. Points as far apart as a "
                    "horizon, to 1e-9 of it, are neighbors here");
   }
 

@@ -90,8 +90,8 @@ const std::vector<std::string> other_missing_fields = {"Bond_Damage_Parameter",
 
 // ½ m v⁻·v⁺ with the velocities before and after a force: it conserves energy, but it can be negative.
 const std::string kinetic =
-    "Kinetic_Energy, by the velocities half a step before and after, which may be below zero where they turn round; "
-    "Peridigm's, by one of them, may not";
+    "Kinetic_Energy, by the velocities half a step before and after: less than Peridigm's by ½ m (½ a Δt)², and below "
+    "zero where they turn round";
 
 // Totals of the body, and the columns of every History that contain them.
 const std::map<std::string, std::string> global_columns = {

@@ -65,10 +65,15 @@ void translate_equilibria(List& solver, Problems& problems) {
   List* slow = find_list(solver, equilibria);
   if (!slow) return;
   const std::string path = path_to(solver.name, equilibria);
-  if (find_list(*slow, "Adaptive Load-Stepping")) {
-    erase_list(*slow, "Adaptive Load-Stepping");
+  if (List* adaptive = find_list(*slow, "Adaptive Load-Stepping")) {
+    const bool switches = find_list(*adaptive, "Switch to Verlet");
     problems.note(path + " > Adaptive Load-Stepping",
-                  "has no effect here: a load step that finds no equilibrium is cut in halves, and none grows");
+                  std::string("has no effect here: a load step that finds no equilibrium is cut in halves, and none "
+                              "grows") +
+                      (switches ? "; the run does not go on by Verlet: where Peridigm does, its points vibrate about "
+                                  "the equilibria that are found here"
+                                : ""));
+    erase_list(*slow, "Adaptive Load-Stepping");
   }
   if (Parameter* tolerance = find_parameter(*slow, "Relative Tolerance");
       tolerance && !find_parameter(*slow, "Tolerance")) {

@@ -212,7 +212,7 @@ def stretched():
     return [with_condition(text, sides(Stretch="1 - 0.01*t"))]
 
 
-def breaking():
+def apart():
     """The same, with bonds that break: those of the copper by their stretch, of the steel by their energy, which the history follows."""
     text = "\n".join(cells()).replace("cells.", "breaking.")
     material, steel = '<Parameter name="Material" ', '<Parameter name="Material" type="string" value="steel"'
@@ -227,9 +227,15 @@ def breaking():
     return [text, section("Damage Models", *models)]
 
 
+def breaking():
+    """The same, while bodies are warmed."""
+    text, models = apart()
+    return [warmed(text, "293 + 1e6*t*(1 + 10*z)"), models]
+
+
 def tearing():
-    """The same with points that fail, by correspondence, of a metal that heats."""
-    text = breaking()[0]
+    """As apart() with points that fail, by correspondence, of a metal that heats."""
+    text = apart()[0]
     heating = section("Heating", keys(Specific_Heat=383.0))
     yields = '<Parameter name="Yield Stress"'
     assert yields in text

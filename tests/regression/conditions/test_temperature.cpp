@@ -319,6 +319,38 @@ TEST(WarmedMetal, ExpandsInSubstepsAsInSteps) {
   }
 }
 
+// The energy of a bond follows from the expansion of both ends at the start of a step, also in the first one after a
+// checkpoint: the same bits. The body expands by more than the stretch that its bonds bear.
+TEST(WarmedSolid, BreaksBondsAfterACheckpointAsWithoutOne) {
+  Parts parts;
+  parts.materials = of_copper(ordinary, "2e-5");
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                      key("Damage Model", "apart"));
+  parts.damage = section("apart", key("Damage Model", "Bond Energy") + key("Fracture Energy", "300"));
+  parts.conditions = warmed("all", "293 + 2e8*t*(1 + 200*x)") + along("v", "Initial Velocity", "all", "z", "8e3*z");
+  const RunFolder folder({.nx = 4, .ny = 3, .nz = 6});
+  Simulation whole(folder, parts);
+  std::vector<Snapshot> kept;
+  std::vector<double> released;
+  while (whole.solver.time() < whole.deck.solver.final_time) {
+    Archive saved = Archive::saving_to(kept.emplace_back());
+    whole.solver.serialize(saved);
+    whole.solver.advance_velocity(whole.deck.solver.final_time);
+    released.push_back(whole.solver.ledger().fracture);
+    whole.solver.advance_position(true);
+  }
+  EXPECT_GT(released.back(), 0);
+  for (std::size_t n = 0; n + 1 < kept.size(); ++n) {
+    Simulation other(folder, parts);
+    Archive restored = Archive::loading_from(kept[n]);
+    other.solver.serialize(restored);
+    other.solver.advance_velocity(other.deck.solver.final_time);
+    other.solver.advance_position(true);
+    other.solver.advance_velocity(other.deck.solver.final_time);
+    EXPECT_EQ(other.solver.ledger().fracture, released[n + 1]) << n;
+  }
+}
+
 deck::Problems problems_of(const std::string& text) {
   const RunFolder folder;
   deck::Problems problems;

@@ -2,6 +2,9 @@
 // and a likely cause, and a last frame; or it is told of once and goes on.
 #include <gtest/gtest.h>
 
+#include <iomanip>
+#include <sstream>
+
 #include "regression/bodies.hpp"
 #include "run/monitor.hpp"
 #include "run/simulation.hpp"
@@ -83,6 +86,25 @@ TEST(Monitor, LooksAtTheEnergyAtTheEndHoweverEarlyItIs) {
   parts.times = key("Final Time", "5e-6");
   parts.verlet = key("Fixed dt", "5e-6");
   expect_words(outcome(folder, parts).error, {"at t = 5e-06 s", "balance of energy", "Watch > Balance Error"});
+}
+
+// A solid whose sides are held, stretched by e^x = 1.3: ½ x² e^x is taken for what it stores, the work is
+// (x − 1) e^x + 1, by its modulus and volume, so that 8 % of the former come out of nothing.
+TEST(Monitor, KnowsWhatALawOfRatesStoresWrongly) {
+  const RunFolder folder;
+  Parts parts;
+  parts.materials = changed(copper(), "0.35", "0");
+  parts.conditions = along("pull", "Prescribed Displacement", "all", "z", "300*z*t") +
+                     along("sides", "Prescribed Displacement", "all", "xy", "0");
+  parts.times = key("Final Time", "1e-3");
+  parts.watch = key("Balance Error", "1");
+  const Outcome o = outcome(folder, parts);
+  if (folder.world.rank() != 0) return;
+  const double x = std::log(1.3), stored = 0.5 * x * x * 1.3, work = (x - 1) * 1.3 + 1;
+  std::ostringstream error;
+  error << std::setprecision(2) << 100 * (stored - work) / stored;
+  expect_words(o.said,
+               {"error of " + error.str(), "out of nothing", "changed by a factor of up to 1.3:", "errs by up to 8.7"});
 }
 
 // A body whose energy leaves through its end: the error at the end is a part of the largest energy, also where no line
@@ -306,7 +328,8 @@ TEST(Monitor, BodiesThatPassThroughSoftSurfacesAreSeen) {
   EXPECT_EQ(folder.world.sum(tells ? 1.0 : 0.0), 1) << "the rank that has the point: " << o.said;
 }
 
-// Contact that holds is no interpenetration, by points that meet corners or middles; nor are bodies that stand in each other.
+// Contact that holds is no interpenetration, by points that meet corners or middles; nor are bodies that stand in each
+// other.
 TEST(Monitor, BodiesThatPressEachOtherDoNotPass) {
   const RunFolder folder;
   for (const double aside : {0.0, 0.5e-3}) {
