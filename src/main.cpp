@@ -24,27 +24,28 @@ constexpr const char* help =
 usage: strut [option] deck.xml              on one core
        mpirun -np 8 strut [option] deck.xml  on eight
 
-  deck.xml             run it: results are written where the deck says, seen from this folder, in place of older ones
-  --continue deck.xml  resume a run from its last checkpoint (section Restart), on any number of ranks. Where there is
-                       none it starts anew, unless the result is complete
-  --check deck.xml     say what is wrong with it, or what the run would do: points, memory, time step, time. Writes nothing
-  --log FILE           before any of these: what is said on the terminal goes to the file, too
-  --threads N          before any of these: N threads a rank, in place of one; results are the same to the last bit.
-                       A rank needs as many cores: mpirun -np 4 --map-by slot:PE=2 strut --threads 2 deck.xml
-  --explain KEY        where a key or section of a deck stands, what it takes and means
-  --keys               all keys of a deck, their units and defaults, as a page of Markdown
-  --version            the version and how it was built, as every file that it writes has it
-  --help, -h           this page
+  deck.xml             run the deck. Paths of results are relative to the working folder; older results are replaced
+  --continue deck.xml  resume a run from its last checkpoint (section Restart), on any number of ranks. Without a
+                       checkpoint the run starts anew; a complete run is left as it is
+  --check deck.xml     print the errors of the deck, or the points, memory, time step and time of the run. Writes no file
+  --log FILE           before any other option: copy all terminal output to FILE
+  --threads N          before any other option: N threads per rank (default 1), with the same bits. Each thread
+                       needs a core: mpirun -np 4 --map-by slot:PE=2 strut --threads 2 deck.xml
+  --explain KEY        print the place, type, unit and meaning of a key or section of a deck
+  --keys               print all keys of a deck, with units and defaults, as a page of Markdown
+  --version            print the version and the build, as all files of strut have them
+  --help, -h           print this page
 
-Files: deck.xml names the mesh (relative to the deck's folder), the result (Exodus II), the history (CSV) and the
-checkpoint (relative to this folder).
-A file that is there is replaced only where it is of the kind that is to be written: a result, history, checkpoint or log
-of strut. What a run reads is never written.
-Signals: SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2 and SIGXCPU end a run after the current step, with a last frame and a
-checkpoint; so does the deck's Wall Time. A file that may not grow any more (ulimit -f) is an error, as a full disk is.
-Exit status: 0 done, 1 an error, which is told on standard error, 2 wrong use, 3 ended by a signal or the wall time, also
-of tools/run, which hands the signal on, and of an mpirun that gets SIGUSR1. Open MPI's, where it gets SIGTERM or SIGINT,
-ends with 1, a status of its own, and kills ranks that take longer than a second.
+Files: the deck names the mesh (relative to the deck's folder), the result (Exodus II), the history (CSV) and the
+checkpoint (relative to the working folder).
+strut replaces a file only if strut wrote it and it is of the same kind (result, history, checkpoint, log). strut never
+writes a file that the run reads.
+Signals: after SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2 or SIGXCPU a run finishes the current step, writes a last frame
+and a checkpoint, and ends; the deck's Wall Time does the same. A full disk and the limit of a file's size (ulimit -f)
+are errors.
+Exit status: 0 complete; 1 error, with a message on standard error; 2 wrong usage; 3 ended by a signal or the wall time.
+tools/run passes signals on and returns the same status, and so does mpirun for SIGUSR1. After SIGTERM or SIGINT mpirun
+of Open MPI returns 1, and kills ranks that take longer than a second.
 )";
 
 int say(const strut::Communicator& world, const std::string& text) {

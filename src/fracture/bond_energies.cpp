@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "mechanics/formulation/ordinary.hpp"
+#include "mechanics/kernels/bonds.hpp"
 
 namespace strut {
 
@@ -77,6 +78,49 @@ std::vector<char> BondEnergies::take_states(const Body& body, double travel) {
     jumped[i] = true;
   }
   return jumped;
+}
+
+// When a bond breaks, the body loses the energy 2 w − ½ ω (b_i + b_j) e², because the bond's part of θ vanishes, too.
+// If this is negative, as under pressure, the bond holds. (The change of θ at both ends by the break is neglected.)
+//
+// Ends that have expanded unequally have the extensions e − u and e + u. What u adds is a product of two differences of
+// both ends, so that both get the same bits.
+//
+// With |a| ≤ |a₀| + growth·d and e ≤ max(e₀, 0) + d, the relative displacement d at which w can first reach w_c is the
+// root of a quadratic equation.
+BondEnergies::Held BondEnergies::held(const std::array<Lanes, 5>& own, const Point& there, const Lanes& omega,
+                                      const Lanes& rest, const Lanes& extension) {
+  const Lanes limit = own[0].min(there.limit), a = own[1] + there.a, b = own[2] + there.b;
+  const Lanes mean = 0.5 * (own[4] + there.expansion), u = 0.5 * (own[4] - there.expansion) * rest;
+  const Lanes stretched = (extension - mean * rest).max(0.0), pull = a * rest + b * stretched;
+  const Lanes constant = a.abs() * rest + b * stretched, slope = (own[3] + there.growth) * rest + b;
+  const Lanes half = 0.5 * (constant + slope * stretched), left = 2 * limit / omega - constant * stretched;
+  const Lanes by_a = u * ((there.a - own[1]) * rest), by_b = 2 * u * (there.b - own[2]) * stretched + b * u.square();
+  const Lanes twice = pull * stretched + (by_a + by_b), released = (pull + a * rest) * stretched + (2 * by_a + by_b);
+  return {(stretched > 0 && released > 0).select(0.5 * omega * twice / limit, 0.0),
+          ((half.square() + slope * left).max(0.0).sqrt() - half) / slope};
+}
+
+void BondEnergies::over(const Body& body, const Cluster& cluster, const std::vector<Vector>& places,
+                        const Visit& visit) const {
+  const Site* sites = body.domain.sites.data();
+  const bonds::OfCluster family{cluster};
+  const auto y = family.own<3>([&](int i) { return places[i].data(); });
+  const auto own = family.own<5>([&](int i) { return &points_[i].limit; });
+  const Lanes horizon = family.own<1>([&](int i) { return sites[i].current.data() + 3; })[0];
+  bonds::with_influence(body.influence, [&]<class Weight>(Weight) {
+    std::size_t n = 0;
+    bonds::over(family, sites, bonds::One(), [&](int j, const Lanes&, const auto& xi, const auto& present) {
+      Eigen::Array4d there;
+      there << places[j].array(), 0;
+      const auto eta = bonds::apart(there, bonds::Vector3<Lanes>{{y[0], y[1], y[2]}});
+      const Lanes rest = (bonds::dot(xi, xi) + (1 - present)).sqrt(), extension = bonds::dot(eta, eta).sqrt() - rest;
+      const Lanes omega = Lanes::Ones() * Weight::of(Lanes(2 * rest / (horizon + sites[j].horizon())));
+      const Held of_bond = held(own, points_[j], omega, rest, extension);
+      visit(n++, Lanes((present > 0).select(of_bond.load, Lanes::Zero())),
+            Lanes((present > 0).select(of_bond.room, Lanes::Constant(never))));
+    });
+  });
 }
 
 }  // namespace strut

@@ -9,6 +9,7 @@
 #include "fracture/critical_stretch.hpp"
 #include "fracture/work_balance.hpp"
 #include "mechanics/breaks_at_rest.hpp"
+#include "mechanics/kernels/bonds.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/reflected.hpp"
