@@ -450,6 +450,8 @@ TEST(DeckOfPeridigm, OtherFormsOfADeckAreRefused) {
   EXPECT_EQ(folder.error("Discretization\n   Type \"Exodus\"\n"), "deck.xml: 1 problem\n  line 2 column 4" + what);
   EXPECT_EQ(folder.error("Peridigm:\n  Solver:\n    Final Time: 1\n    Final Time: 2\n"),
             "deck.xml: 1 problem\n  line 5 column 1: Parameter \"Final Time\" is given twice; expected once");
+  EXPECT_EQ(folder.error("Peridigm:\n  Solver:\n\tFinal Time: 1\n"),
+            "deck.xml: 1 problem\n  line 3: indented by a tab; expected spaces, as YAML has them");
   EXPECT_EQ(folder.error(std::string(200, '[')),
             "deck.xml: 1 problem\n  YAML: more than a hundred levels; expected few");
 }
