@@ -113,6 +113,17 @@ void add_syntax_error(const std::string& what, bool was_put_into_one, Problems& 
       "text with aprepro's {…} is not read)");
 }
 
+// The first line that a tab indents, which YAML does not allow; 0 without any.
+int line_indented_by_tab(const std::string& text) {
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos) return number;
+  }
+  return 0;
+}
+
 // Teuchos and read_list recurse for each level.
 bool is_too_deep(const std::string& text) {
   constexpr int deepest = 100;
@@ -138,7 +149,11 @@ std::optional<List> parse_yaml(const std::string& text, Problems& problems) {
     if (!put_into_one) deck.name = yaml->name();  // "Peridigm", say
     return deck;
   } catch (const std::exception& error) {
-    add_syntax_error(error.what(), put_into_one, problems);
+    if (const int line = line_indented_by_tab(text)) {
+      problems.add("line " + std::to_string(line), "indented by a tab; expected spaces, as YAML has them");
+    } else {
+      add_syntax_error(error.what(), put_into_one, problems);
+    }
   }
   return std::nullopt;
 }

@@ -44,12 +44,12 @@ void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, d
                           ": expected 'strut --continue " + deck.file.string() +
                           "', or 'false' to begin anew and replace it");
   }
-  if (is_there || deck.solver.initial_time == 0) return;
+  if (is_there || deck.start_from || deck.solver.initial_time == 0) return;
   std::ostringstream text;
   text << "'true' asks to go on from a checkpoint at t = " << deck.solver.initial_time
        << " s (Solver > Initial Time), but there is none, " << file
-       << ": expected the deck of the first part with a later Final Time, and 'strut --continue' with that; or 'false' "
-          "to begin then with bodies that are undeformed";
+       << ": expected Start From > Checkpoint with that of the first part, or the deck of the first part with a later "
+          "Final Time and 'strut --continue'; or 'false' to begin then with bodies that are undeformed";
   problems.add(key, text.str());
 }
 

@@ -4,9 +4,10 @@
     peridigm.py PERIDIGM STRUT [--only WORD] [--seconds 60] [--keep FOLDER]
 
 PERIDIGM is its source folder (with test/ and examples/), STRUT the program. Each deck runs in a copy of its folder, from
-the folder that its test runs in. A run that takes longer is ended, and its frames are compared so far. A row a deck:
+the folder that its test runs in, on one thread. A run that takes longer is ended, and its frames are compared so far. A
+row a deck:
 
-    deck | runs, ended or refused | agrees, or differs by, or no gold | the error, or the keys that were told
+    deck | runs, refused or where it was ended | agrees, or differs by, or no gold | the error, or the keys that were told
 
 A difference is the largest of a variable over the largest magnitude of its gold values, in all common frames.
 """
@@ -153,18 +154,24 @@ def run(deck, arguments):
     folder = folder_of_test(copy, deck.stem)
     before = set(folder.iterdir())
     command = [str(arguments.strut.absolute()), os.path.relpath(copy / deck.name, folder)]
-    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                               env={**os.environ, "OMP_NUM_THREADS": "1"})
     try:
         said, _ = process.communicate(timeout=arguments.seconds)
         end = "runs" if process.returncode == 0 else "refused"
     except subprocess.TimeoutExpired:
         process.send_signal(signal.SIGTERM)
         said, _ = process.communicate()
-        end = "ended"
+        reached = re.search(r"goes on from t = (\S+) s", said)
+        end = f"ended at t = {reached[1] if reached else 0}"
     (copy / "said.txt").write_text(said)
     if end == "refused" and re.search(r"^(  0 %|step +1 )", said, re.M):
         end = "stopped"
     return end, said, sorted(f for f in set(folder.iterdir()) - before if f.suffix == ".e")
+
+
+def shortened(text, most=200):
+    return text if len(text) <= most else text[:most - 2] + " …"
 
 
 def reasons(end, said):
@@ -172,7 +179,7 @@ def reasons(end, said):
     lines = said.strip().splitlines()
     if end in ("refused", "stopped"):
         problems = [line.strip() for line in lines if line.startswith("  ") and ": " in line and "%" not in line[:6]]
-        return problems if end == "refused" and problems else lines[-1:]
+        return [shortened("; ".join(problems if end == "refused" and problems else lines[-1:]))]
     told = [re.split(r" (?:is|has|goes|are|have|holds|falls|weighs|counts) ", line)[0].split(" > ", 1)[1]
             for line in lines if re.match(r"[A-Z][\w ]+ > ", line)]
     told += [line.split(";")[0].split(":")[0] for line in lines if re.match(r"Blocks .*Peridigm", line)]
@@ -183,7 +190,7 @@ def row(deck, arguments):
     end, said, results = run(deck, arguments)
     gold = gold_of(deck)
     verdict = ""
-    if end in ("runs", "ended"):
+    if end == "runs" or end.startswith("ended"):
         found = [compare(result, gold, modulus_of(deck)) for result in results] if gold else []
         verdict = min(found, key=lambda one: one[1])[0] if found else "no gold result" if not gold else "no result"
     return [str(deck.relative_to(arguments.peridigm)), end, verdict, "; ".join(reasons(end, said))]
@@ -203,10 +210,11 @@ def main():
         for deck in decks(arguments.peridigm):
             if arguments.only in str(deck):
                 rows.append(row(deck, arguments))
-                print("| " + " | ".join(rows[-1]) + " |", flush=True)
-    count = {end: sum(r[1] == end for r in rows) for end in ("runs", "ended", "stopped", "refused")}
-    agree = sum(r[2].startswith("agrees") for r in rows)
-    print(f"{len(rows)} decks: " + ", ".join(f"{n} {end}" for end, n in count.items()) + f"; {agree} agree")
+                print(" | ".join(rows[-1]), flush=True)
+    count = {end: sum(r[1].startswith(end) for r in rows) for end in ("runs", "ended", "stopped", "refused")}
+    verdicts = {word: sum(r[2].startswith(word) for r in rows) for word in ("agrees", "differs", "no gold")}
+    print(f"{len(rows)} decks, each at most {arguments.seconds:g} s on one thread: " +
+          ", ".join(f"{n} {word}" for word, n in {**count, **verdicts}.items()))
 
 
 if __name__ == "__main__":

@@ -142,24 +142,26 @@ void translate_needleman(List& material, const std::string& path, Problems& prob
       "above it the law is the same, but Peridigm looks for the flow at other strains than it then takes");
 }
 
-// Here the stretch that breaks a bond never includes thermal expansion; Peridigm has a key for that.
-void drop_expansion_of_bonds(List& deck, Problems& problems) {
+// Here the stretch that breaks a bond never includes thermal expansion; Peridigm has a key for that, 0 without it.
+void drop_expansion_of_bonds(List& deck, bool is_theirs, Problems& problems) {
   List *models = find_list(deck, "Damage Models"), *materials = find_list(deck, "Materials");
   if (!models || !materials) return;
   const std::string key = "Thermal Expansion Coefficient";
   for (List& model : models->lists) {
     const auto given = real_of(model, key);
-    if (!given) continue;
-    const bool is_same =
-        std::ranges::all_of(materials->lists, [&](const List& one) { return real_of(one, key).value_or(0) == *given; });
-    const std::string path = path_to("Damage Models > " + model.name, key);
-    if (!is_same)
-      problems.note(path, "has no effect here: the stretch of a bond counts beyond the expansion of its material");
+    const bool is_same = std::ranges::all_of(
+        materials->lists, [&](const List& one) { return real_of(one, key).value_or(0) == given.value_or(0); });
+    if (!is_same && (given || is_theirs)) {
+      problems.note(path_to("Damage Models > " + model.name, key),
+                    std::string(given ? "has no effect here" : "is missing") +
+                        ": the stretch of a bond counts beyond α ΔT of its material; in Peridigm " +
+                        (given ? "beyond " + to_text(*given) + " ΔT" : "the whole counts"));
+    }
     erase_parameter(model, key);
   }
 }
 
-void translate_materials(List& deck, Problems& problems) {
+void translate_materials(List& deck, bool is_theirs, Problems& problems) {
   List* materials = find_list(deck, "Materials");
   if (!materials) return;
   for (List& material : materials->lists) {
@@ -172,7 +174,7 @@ void translate_materials(List& deck, Problems& problems) {
     drop_flaw(material);
     drop_what_is_off(material, path, problems);
   }
-  drop_expansion_of_bonds(deck, problems);
+  drop_expansion_of_bonds(deck, is_theirs, problems);
 }
 
 // Converts a horizon for all blocks, as in older decks.
@@ -343,7 +345,7 @@ bool translate_peridigm(List& deck, const std::filesystem::path& folder, Problem
   if (is_theirs) read_mesh_as_peridigm(deck, problems);
   if (is_theirs) go_on_beyond_limits(deck);
   translate_blocks(deck, problems);
-  translate_materials(deck, problems);
+  translate_materials(deck, is_theirs, problems);
   translate_conditions(deck);
   refuse_what_is_missing(deck, problems);
   translate_solvers(deck, is_theirs, problems);

@@ -26,7 +26,7 @@ const BooleanKey resumes(
     {.name = "Restart",
      .fallback = "false",
      .meaning = "Peridigm's key. true: a run that would replace a checkpoint is refused, and so is one without a "
-                "checkpoint whose Initial Time is not 0."});
+                "checkpoint and without Start From whose Initial Time is not 0."});
 
 }  // namespace
 

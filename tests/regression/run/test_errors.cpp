@@ -279,8 +279,15 @@ TEST_F(Mistake, ADeckThatGoesOnFromACheckpointThatIsNotThere) {
   expect_error(with("1e-2"),
                {"Restart > Restart: 'true' asks to go on from a checkpoint at t = 0.01 s (Solver > Initial "
                 "Time), but there is none",
-                "'strut --continue'"});
+                "Start From > Checkpoint", "'strut --continue'"});
   EXPECT_EQ(outcome(changed(with("0"), "1.5e-2", "1e-7")).value_or("no error"), "no error");
+  const std::string solver = "<ParameterList name=\"Solver\">";
+  std::string second = changed(with("1e-7"), "1.5e-2", "2e-7");
+  for (const std::string file : {"none.restart", "result.e", "history.csv"})
+    second = changed(second, "@/" + file, "@/second-" + file);
+  expect_error(second, {"there is none"});
+  const std::string from = section("Start From", key("Checkpoint", "@/none.restart"));
+  EXPECT_EQ(outcome(changed(second, solver, from + solver)).value_or("no error"), "no error");
 }
 
 // Places and volumes are those of the checkpoint; what conditions hold is not.
@@ -519,7 +526,8 @@ TEST_F(Mistake, MeansAndContactForcesOfTheHistory) {
                     section("Variables", key(name, "true"));
     return parts.text();
   };
-  expect_error(with("Mean_Velocity_W"), {"expected Mean_ or Sum_ and the name of a variable (did you mean 'Mean_Velocity"});
+  expect_error(with("Mean_Velocity_W"),
+               {"expected Mean_ or Sum_ and the name of a variable (did you mean 'Mean_Velocity"});
   expect_error(with("Mean_Velocity_Z(slces)"), {"there is no node set or block 'slces'"});
   expect_error(with("Mean_Velocity_Z(slices)", "1000"),
                {"History > Profiles > slices: layer 1 of 1000 holds no point"});

@@ -217,8 +217,7 @@ TEST(DeckOfPeridigm, OutputsBecomeFieldsAndHistory) {
   EXPECT_EQ(deck.history.variables, std::vector<std::string>{"Max_Von_Mises_Stress(block_1)"});
   for (const std::string note :
        {"Output2 > Output Variables > Global_Kinetic_Energy goes into History: Kinetic_Energy, by the velocities "
-        "half a step before and after, which may be below zero where they turn round; Peridigm's, by one of "
-        "them, may not",
+        "half a step before and after: less than Peridigm's by ½ m (½ a Δt)², and below zero where they turn round",
         "Output2 > Output Variables > Global_Angular_Momentum is not written: there is no such number here",
         "Output2 > Output Variables > Highest_Stress goes into History: Max_Von_Mises_Stress(block_1)"}) {
     EXPECT_TRUE(told(deck, note)) << note;
@@ -230,8 +229,9 @@ TEST(DeckOfPeridigm, KeysWithoutEffectAreTold) {
   const Deck deck = folder.read(full_deck);
   for (const std::string note :
        {"Blocks have horizons of their own: points of two of them are neighbors below the mean of "
-        "both, and feel each other's forces; in Peridigm each takes those within its own horizon. Points as far "
-        "apart as a horizon, to 1e-9 of it, are neighbors here",
+        "both, and feel each other's forces; in Peridigm each takes those within its own horizon, which reaches half "
+        "the difference of both farther, or less far. Points as far apart as a horizon, to 1e-9 of it, are neighbors "
+        "here",
         "Contact > Models > touch > Contact Radius is the distance from which points push each "
         "other; those of two bodies that start nearer do so from that distance on, in Peridigm "
         "from the radius on, so that they push at once",
@@ -350,6 +350,31 @@ TEST(DeckOfPeridigm, DisabledPlasticityIsElastic) {
   EXPECT_EQ(deck.materials[0].formulation, Formulation::ordinary);
 }
 
+// Peridigm's bonds break by their whole stretch, unless the damage model has the coefficient, too.
+TEST(DeckOfPeridigm, ExpansionOfBondsThatBreakIsToldWhereItDiffers) {
+  const DeckFolder folder;
+  const std::string alpha = key("Thermal Expansion Coefficient", "double", "2e-5"),
+                    other = key("Thermal Expansion Coefficient", "double", "1e-5"),
+                    discretization = R"(<ParameterList name="Discretization">)";
+  const auto told_of = [&](const std::string& of_material, const std::string& of_model, const std::string& own) {
+    const std::string model =
+        list("Damage Models", list("brittle", key("Damage Model", "string", "Critical Stretch") +
+                                                  key("Critical Stretch", "double", "0.01") + of_model));
+    const Deck deck = folder.read(
+        changed(changed(small_deck, poisson, poisson + of_material + own), discretization, model + discretization));
+    for (const std::string& note : deck.notes) {
+      if (note.starts_with("Damage Models > brittle > Thermal")) return note.substr(note.find("in Peridigm"));
+    }
+    return std::string();
+  };
+  const std::string theirs = key("Disable Plasticity", "bool", "false");
+  EXPECT_EQ(told_of(alpha, "", theirs), "in Peridigm the whole counts");
+  EXPECT_EQ(told_of(alpha, other, theirs), "in Peridigm beyond 1e-05 ΔT");
+  EXPECT_EQ(told_of(alpha, alpha, theirs), "");
+  EXPECT_EQ(told_of("", "", theirs), "");
+  EXPECT_EQ(told_of(alpha, "", ""), "");
+}
+
 // Peridigm adds up increments: with the value v(t) points are at v(t) − v(0).
 TEST(DeckOfPeridigm, DisplacementsAreTakenFromTheirStart) {
   const DeckFolder folder;
@@ -376,10 +401,11 @@ TEST(DeckOfPeridigm, DisplacementsAreTakenFromTheirStart) {
 TEST(DeckOfPeridigm, SecondFilesOfFieldsAndLoadSteps) {
   const DeckFolder folder;
   const std::string end = R"(<Parameter name="Final Time" type="double" value="2e-4"/>)";
-  std::string text =
-      changed(small_deck, end,
-              list("QuasiStatic", key("Time Steps", "string", "0.0 0.1 0.5 1.0") +
-                                      list("Adaptive Load-Stepping", key("Maximum Load Step", "double", "1"))));
+  std::string text = changed(
+      small_deck, end,
+      list("QuasiStatic",
+           key("Time Steps", "string", "0.0 0.1 0.5 1.0") +
+               list("Adaptive Load-Stepping", key("Maximum Load Step", "double", "1") + list("Switch to Verlet", ""))));
   text = changed(text, R"(<ParameterList name="Solver">)",
                  output("Output1", "20", {"Displacement", "Lambda"}) +
                      output("Output2", "5", {"Velocity", "Displacement"}) + R"(<ParameterList name="Solver">)");
@@ -388,6 +414,10 @@ TEST(DeckOfPeridigm, SecondFilesOfFieldsAndLoadSteps) {
   EXPECT_EQ(deck.output.frequency, 5);
   EXPECT_EQ(deck.solver.quasi_static->load_steps, 10);
   EXPECT_EQ(deck.solver.final_time, 1);
+  EXPECT_TRUE(told(deck,
+                   "Solver > QuasiStatic > Adaptive Load-Stepping has no effect here: a load step that finds no "
+                   "equilibrium is cut in halves, and none grows; the run does not go on by Verlet: where Peridigm "
+                   "does, its points vibrate about the equilibria that are found here"));
   EXPECT_TRUE(told(deck,
                    "Output1 > Output Variables > Lambda is not written: there is no such field here; there is "
                    "Equivalent_Plastic_Strain"));
@@ -420,6 +450,8 @@ TEST(DeckOfPeridigm, OtherFormsOfADeckAreRefused) {
   EXPECT_EQ(folder.error("Discretization\n   Type \"Exodus\"\n"), "deck.xml: 1 problem\n  line 2 column 4" + what);
   EXPECT_EQ(folder.error("Peridigm:\n  Solver:\n    Final Time: 1\n    Final Time: 2\n"),
             "deck.xml: 1 problem\n  line 5 column 1: Parameter \"Final Time\" is given twice; expected once");
+  EXPECT_EQ(folder.error("Peridigm:\n  Solver:\n\tFinal Time: 1\n"),
+            "deck.xml: 1 problem\n  line 3: indented by a tab; expected spaces, as YAML has them");
   EXPECT_EQ(folder.error(std::string(200, '[')),
             "deck.xml: 1 problem\n  YAML: more than a hundred levels; expected few");
 }
