@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
+#include <cstring>
+#include <fstream>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -23,13 +25,17 @@ using library_calls::Inside;
 constexpr const char* gave_up = "found no stress (PNEWDT below 1, or `failed`)";
 constexpr const char* no_number =
     "gave a stress, a state variable or an energy that is no number; does it have all its Constants?";
-constexpr const char* wrote_beyond = "changed a state variable beyond its State Variables";
+constexpr const char* wrote_beyond = "changed a state variable beyond its State Variables, or what it may only read";
+constexpr const char* wrote_constants = "changed its Constants (PROPS), which are those of all points";
 std::atomic<const char*> complaint = gave_up;  // of the last step without a stress, on any thread
 
 constexpr int none_behind = 32;  // NaNs behind the constants
 int count_of(const std::vector<double>& constants) { return static_cast<int>(constants.size()) - none_behind; }
 
 constexpr int most_points = 8, most = UserLaw::most_states;
+constexpr int rows = sizeof(UserLaw::State) / sizeof(double);
+constexpr int guards = most;         // rows behind a lent state,
+constexpr double guard = 12345.678;  // which a library must leave alone
 
 // ---- The interfaces -------------------------------------------------------------------------------------------------
 
@@ -64,28 +70,26 @@ std::array<char, name_length> fortran_text(const std::string& name) {
 // The arguments of UMAT and VUMAT that all points share. Both get one point at a time, since points in substeps have
 // steps of their own.
 struct Fixed {
-  explicit Fixed(const UserLaw& law)
+  Fixed(const UserLaw& law, const double* constants)
       : cmname(fortran_text(law.name)),
-        props(const_cast<double*>(law.constants.data())),  // Fortran has no const
+        props(const_cast<double*>(constants)),  // Fortran has no const
         nprops(count_of(law.constants)),
-        nstatv(law.states),
-        copied(std::min(law.states + 1, most)) {}
+        nstatv(law.states) {}
 
   std::array<char, name_length> cmname;
   double* props;
   int ndir = 3, nshr = 3, nprops, nstatv;
-  int copied;  // state variables: one more than the library has, so that tried() finds a library that changes it
 };
 
 void call_umat(const UserLaw& law, const strut_step& s, Inside& here) {
   // UMAT's shear components are xy xz yz, and shear strains are doubled.
   constexpr int place[6] = {0, 1, 2, 3, 5, 4};
   constexpr int full[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
-  Fixed fixed(law);
+  Fixed fixed(law, s.constants);
   for (int p = 0; p < s.points; ++p) {
     here.takes(p);
     const auto at = [&](const double* values, int c) { return values[c * s.points + p]; };
-    double stress[6], strain[6], increment[6], statev[most + 1], before[9], after[9];
+    double stress[6], strain[6], increment[6], statev[most], before[9], after[9];
     for (int c = 0; c < 6; ++c) {
       const int from = place[c];
       const double doubled = c < 3 ? 1 : 2;
@@ -94,7 +98,7 @@ void call_umat(const UserLaw& law, const strut_step& s, Inside& here) {
       increment[c] = doubled * at(s.rate, from) * s.dt[p];
     }
     for (int k = 0; k < 9; ++k) before[k] = at(s.old_stretch, full[k]), after[k] = at(s.stretch, full[k]);
-    for (int c = 0; c < fixed.copied; ++c) statev[c] = at(s.state, c);
+    for (int c = 0; c < most; ++c) statev[c] = at(s.state, c);
     double ddsdde[36] = {}, sse = s.stored[p] / s.J[p], spd = s.dissipated[p] / s.J[p], scd = 0, rpl = 0;
     double ddsddt[6] = {}, drplde[6] = {}, drpldt = 0, time[2] = {s.time[p], s.time[p]}, dtime = s.dt[p], temp = 0;
     double dtemp = 0, predef = 0, dpred = 0, coords[3] = {}, drot[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, pnewdt = 1;
@@ -106,7 +110,7 @@ void call_umat(const UserLaw& law, const strut_step& s, Inside& here) {
         &fixed.nprops, coords, drot, &pnewdt, &celent, before, after, &noel, &npt, &layer, &kspt, jstep, &kinc,
         name_length);
     for (int c = 0; c < 6; ++c) s.stress[place[c] * s.points + p] = stress[c];
-    for (int c = 0; c < fixed.copied; ++c) s.state[c * s.points + p] = statev[c];
+    for (int c = 0; c < most; ++c) s.state[c * s.points + p] = statev[c];
     s.stored[p] = s.J[p] * sse, s.dissipated[p] = s.J[p] * (spd + scd);
     s.failed[p] = pnewdt < 1;
   }
@@ -114,17 +118,17 @@ void call_umat(const UserLaw& law, const strut_step& s, Inside& here) {
 
 void call_vumat(const UserLaw& law, const strut_step& s, Inside& here) {
   constexpr int full[9] = {0, 1, 2, 3, 4, 5, 3, 4, 5};  // 11 22 33 12 23 31 21 32 13
-  Fixed fixed(law);
+  Fixed fixed(law, s.constants);
   for (int p = 0; p < s.points; ++p) {
     here.takes(p);
     const auto at = [&](const double* values, int c) { return values[c * s.points + p]; };
-    double old_stress[6], stress[6], increment[6], before[9], after[9], old_state[most + 1], state[most + 1];
+    double old_stress[6], stress[6], increment[6], before[9], after[9], old_state[most], state[most];
     for (int c = 0; c < 6; ++c) {
       old_stress[c] = stress[c] = at(s.stress, c);
       increment[c] = at(s.rate, c) * s.dt[p];
     }
     for (int k = 0; k < 9; ++k) before[k] = at(s.old_stretch, full[k]), after[k] = at(s.stretch, full[k]);
-    for (int c = 0; c < fixed.copied; ++c) old_state[c] = state[c] = at(s.state, c);
+    for (int c = 0; c < most; ++c) old_state[c] = state[c] = at(s.state, c);
     double density = law.density / s.J[p], inelastic = s.dissipated[p] / law.density;
     double intern = s.stored[p] / law.density + inelastic, new_intern = intern, new_inelastic = inelastic;
     double time = s.time[p] + s.dt[p], dt = s.dt[p], none[9] = {};
@@ -138,7 +142,7 @@ void call_vumat(const UserLaw& law, const strut_step& s, Inside& here) {
         old_stress, old_state, &intern, &inelastic, none, stretch, after, none, stress, state, &new_intern,
         &new_inelastic, name_length);
     for (int c = 0; c < 6; ++c) s.stress[c * s.points + p] = stress[c];
-    for (int c = 0; c < fixed.copied; ++c) s.state[c * s.points + p] = state[c];
+    for (int c = 0; c < most; ++c) s.state[c * s.points + p] = state[c];
     s.dissipated[p] = law.density * new_inelastic;
     s.stored[p] = law.density * (new_intern - new_inelastic);
   }
@@ -156,6 +160,45 @@ void call(const UserLaw& law, const strut_step& s) {
   }
 }
 
+// The points at which the library changed more of the state that it was lent than its state variables and energies.
+std::array<bool, most_points> changed_beyond(const double* lent, const double* state, int points, int states) {
+  const auto same = [&](int first, int end) {
+    return std::memcmp(lent + first * points, state + first * points, sizeof(double) * (end - first) * points) == 0;
+  };
+  const auto is_guard = [](double number) { return number == guard; };
+  const double* const behind = lent + rows * points;
+  std::array<bool, most_points> changed{};
+  if (same(states, most) && same(most + 2, rows) && std::all_of(behind, behind + guards * points, is_guard)) {
+    return changed;
+  }
+  for (int k = states * points; k < (rows + guards) * points; ++k) {
+    const bool is_energy = k >= most * points && k < (most + 2) * points;
+    const bool is_same = k < rows * points ? std::memcmp(lent + k, state + k, sizeof(double)) == 0 : is_guard(lent[k]);
+    if (!is_energy && !is_same) changed[k % points] = true;
+  }
+  return changed;
+}
+
+// "" if the file is no object code, or one of this processor's. The system's own message is "No such file".
+std::string other_processor(const std::string& file) {
+  const auto head = [](const std::string& name) {
+    std::string bytes(20, '\0');
+    std::ifstream(name, std::ios::binary).read(bytes.data(), std::ssize(bytes));
+    return bytes;
+  };
+  const std::string its = head(file), own = head("/proc/self/exe");
+  constexpr int machine = 18;  // ELF: e_machine, two bytes
+  if (!its.starts_with("\x7f"
+                       "ELF") ||
+      its.substr(machine) == own.substr(machine))
+    return "";
+  const auto number = [](const std::string& bytes) {
+    return std::to_string(static_cast<unsigned char>(bytes[machine]) +
+                          256 * static_cast<unsigned char>(bytes[machine + 1]));
+  };
+  return "is compiled for another processor (machine " + number(its) + " of ELF; expected " + number(own) + ")";
+}
+
 }  // namespace
 
 LibraryFunction loaded(const std::string& file, const std::string& name, LibraryInterface interface) {
@@ -164,7 +207,12 @@ LibraryFunction loaded(const std::string& file, const std::string& name, Library
     const char* text = dlerror();
     return std::string(text ? text : "unknown error");
   };
-  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (const std::string other = other_processor(file); !other.empty()) throw Error(other);
+  void* handle = nullptr;
+  {
+    const Inside here(file);  // a damaged one crashes here, and constructors run
+    handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  }
   if (!handle) throw Error("cannot be loaded: " + reason());
   std::shared_ptr<void> library(handle, dlclose);
   void* address = dlsym(handle, name.c_str());
@@ -182,15 +230,16 @@ std::string UserLaw::why_no_stress() const { return "the library " + function.fi
 void UserLaw::advance(int points, const double* dt, const double* rate, const double* J, const double* stretch,
                       double* state, double* stress, double* converged) const {
   static_assert(sizeof(RawLanes) / sizeof(double) <= most_points);
-  double* const stored = state + most * points;
+  double lent[(rows + guards) * most_points];
+  std::copy_n(state, rows * points, lent);
+  std::fill_n(lent + rows * points, guards * points, guard);
+  double* const stored = lent + most * points;
   double* const dissipated = stored + points;
   double* const strain = dissipated + points;
   double* const displacement = strain + 6 * points;
   double* const time = displacement + 6 * points;
   double d[6 * most_points], U[6 * most_points], old[6 * most_points], det[most_points], before[6 * most_points];
-  double kept[(most + 2) * most_points];
   int failed[most_points] = {};
-  std::copy_n(state, (most + 2) * points, kept);
   std::copy_n(stress, 6 * points, before);
   for (int p = 0; p < points; ++p) det[p] = J[p] > 0 ? J[p] : 1;
   for (int c = 0; c < 6; ++c) {
@@ -201,23 +250,26 @@ void UserLaw::advance(int points, const double* dt, const double* rate, const do
       U[k] = J[p] > 0 ? stretch[k] : c < 3;
     }
   }
+  thread_local std::vector<double> props;  // a library may change them by mistake
+  props = constants;
   const strut_step step{
-      points, count_of(constants), states, constants.data(), time, dt, d, strain, old, U, det, stress, state,
+      points, count_of(constants), states, props.data(), time, dt, d, strain, old, U, det, stress, lent,
       stored, dissipated,          failed};
   call(*this, step);
+  const bool spoiled = std::memcmp(props.data(), constants.data(), sizeof(double) * constants.size()) != 0;
+  const std::array<bool, most_points> beyond = changed_beyond(lent, state, points, states);
   for (int p = 0; p < points; ++p) {
     double sum = stored[p] + dissipated[p];
     for (int c = 0; c < 6; ++c) sum += stress[c * points + p];
-    for (int c = 0; c < states; ++c) sum += state[c * points + p];
-    const int beyond = states * points + p;
-    const char* const wrong = failed[p] != 0                                   ? gave_up
-                              : !is_finite(sum)                                ? no_number
-                              : states < most && state[beyond] != kept[beyond] ? wrote_beyond
-                                                                               : nullptr;
+    for (int c = 0; c < states; ++c) sum += lent[c * points + p];
+    const char* const wrong = failed[p] != 0    ? gave_up
+                              : spoiled         ? wrote_constants
+                              : beyond[p]       ? wrote_beyond
+                              : !is_finite(sum) ? no_number
+                                                : nullptr;
     converged[p] = wrong == nullptr;
     if (wrong) {
       complaint = wrong;
-      for (int c = 0; c < most + 2; ++c) state[c * points + p] = kept[c * points + p];
       continue;
     }
     if (!tells_energy) {
@@ -228,13 +280,14 @@ void UserLaw::advance(int points, const double* dt, const double* rate, const do
       }
       stored[p] = det[p] * Elastic{bulk, shear}.elastic_energy(to);
       const double work = step_work(one, old_determinant(one), from, to);
-      dissipated[p] = kept[(most + 1) * points + p] + work - (stored[p] - kept[most * points + p]);
+      dissipated[p] = state[(most + 1) * points + p] + work - (stored[p] - state[most * points + p]);
     }
     for (int c = 0; c < 6; ++c) {
       strain[c * points + p] += d[c * points + p] * dt[p];
       displacement[c * points + p] = U[c * points + p] - (c < 3);
     }
     time[p] += dt[p];
+    for (int c = 0; c < rows; ++c) state[c * points + p] = lent[c * points + p];
   }
 }
 
@@ -251,17 +304,9 @@ LibraryTrial tried(const UserLaw& given) {
   unit.head<3>().setOnes();
 
   UserLaw::State rest;
-  if (law.states < most) rest.user[law.states] = 12345.678;  // which it must leave alone
+  std::fill(rest.user + law.states, rest.user + most, guard);  // which it must leave alone
   const PointStress still = law.step(PointStep{Symmetric::Zero(), dt, 1, unit}, Symmetric::Zero(), rest);
-  const auto wrong_beyond = [&](int k) {
-    wrong("changes state variable " + std::to_string(k + 1) + " of " + std::to_string(law.states) +
-          " (State Variables)");
-  };
-  if (!still.converged && complaint == wrote_beyond) wrong_beyond(law.states);
   if (!still.converged) wrong("in a step without strain " + std::string(complaint));
-  for (int k = law.states + 1; k < most; ++k) {
-    if (rest.user[k] != 0) wrong_beyond(k);
-  }
   const double large = still.stress.cwiseAbs().maxCoeff();
   if (large > 1e-9 * moduli.bulk) {
     text << "gives a stress of " << large << " Pa in a step of the undeformed state without strain; expected none";
@@ -286,10 +331,16 @@ LibraryTrial tried(const UserLaw& given) {
   }
   const double size = stiffness.cwiseAbs().maxCoeff();
   const StretchTangent even = 0.5 * (stiffness + stiffness.transpose());
-  const double stiffest = Eigen::SelfAdjointEigenSolver<StretchTangent>(even).eigenvalues().maxCoeff();
+  const auto stiffnesses = Eigen::SelfAdjointEigenSolver<StretchTangent>(even).eigenvalues();
+  const double stiffest = stiffnesses.maxCoeff(), softest = stiffnesses.minCoeff();
   const double expected = std::max(3 * moduli.bulk, 2 * moduli.shear);
   const double tolerance = 0.01;  // of elastic constants that are given to two or three digits
-  if (stiffest > (1 + tolerance) * expected) {
+  if (softest < -1e-3 * expected) {
+    text << "has an elastic stiffness of " << softest
+         << " Pa in some direction, which lets no body stand; expected none "
+         << "below 0: are its signs, and the order of its components, those of its interface?";
+    wrong(text.str());
+  } else if (stiffest > (1 + tolerance) * expected) {
     text << "is stiffer, " << stiffest << " Pa, than its elastic constants say, " << expected
          << " Pa (the larger of 3 K and 2 G): the time step would be too long for it; expected elastic constants that "
             "are not smaller than the law's";

@@ -33,6 +33,19 @@ std::string text_at(const Texts& texts, const std::string& path) {
   return found == texts.end() ? "not there" : found->second;
 }
 
+// "2000 before, 1000 now"; of long texts, as tables are, the part where they begin to differ.
+std::string both(const std::string& was, const std::string& then, const std::string& is, const std::string& now) {
+  constexpr std::size_t longest = 200, around = 60;
+  const auto differ = std::mismatch(was.begin(), was.end(), is.begin(), is.end()).first - was.begin();
+  const std::size_t from = std::max<std::size_t>(differ, around) - around;
+  const auto shown = [&](const std::string& text) {
+    if (std::max(was.size(), is.size()) <= longest || text.size() <= around) return text;
+    const std::string end = from + 2 * around < text.size() ? "…" : "";
+    return (from > 0 ? "…" : "") + text.substr(std::min(from, text.size()), 2 * around) + end;
+  };
+  return shown(was) + " " + then + ", " + shown(is) + " " + now;
+}
+
 bool is_within(const std::string& path, std::string_view parent) {
   return path == parent ||
          (path.starts_with(parent) && std::string_view(path).substr(parent.size()).starts_with(" > "));
@@ -139,8 +152,8 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     if (is_within(path, "Contact")) changes.same_contact = false;
     if (is_within(path, "Boundary Conditions") || is_within(path, "Node Sets")) changes.same_conditions = false;
     if (is_within(path, "Node Sets")) changes.same_loads = false;
-    if (path == "Solver > Verlet > Mass Scaling dt") changes.masses = path + ": " + was + " there, " + is + " here";
-    if (is_of_the_body(path, other)) changes.refused.push_back(path + ": " + was + " there, " + is + " here");
+    if (path == "Solver > Verlet > Mass Scaling dt") changes.masses = path + ": " + both(was, "there", is, "here");
+    if (is_of_the_body(path, other)) changes.refused.push_back(path + ": " + both(was, "there", is, "here"));
   }
   compare_images(other, now, changes.refused);
   const auto sets_of = [](const Texts& texts) {
@@ -168,7 +181,7 @@ Changes changes(const std::string& before, const std::string& now) {
     auto& kind = accepted                                               ? changes.accepted
                  : is_load(path, old_texts) && is_load(path, new_texts) ? changes.loads
                                                                         : changes.refused;
-    kind.push_back(path + ": " + was + " before, " + is + " now");
+    kind.push_back(path + ": " + both(was, "before", is, "now"));
   }
   return changes;
 }

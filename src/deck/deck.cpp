@@ -14,6 +14,7 @@
 #include "deck/sections/node_sets.hpp"
 #include "deck/sections/temperatures.hpp"
 #include "deck/sections/written_files.hpp"
+#include "deck/tables.hpp"
 #include "deck/whole.hpp"
 #include "deck/yaml.hpp"
 
@@ -86,9 +87,10 @@ std::vector<WrittenFile> written_files(const Deck& deck) {
   return written;
 }
 
-std::vector<ReadFile> read_files(const Deck& deck) {
+std::vector<ReadFile> read_files(const Deck& deck, const std::vector<fs::path>& tables) {
   std::vector<ReadFile> read{{"the input mesh", deck.discretization.mesh}, {"this deck", deck.file}};
   for (const fs::path& shells : deck.discretization.shells) read.push_back({"a mesh of Bond Filters", shells});
+  for (const fs::path& table : tables) read.push_back({"a table of this deck", table});
   for (const NodeSet& set : deck.node_sets) {
     if (!set.file.empty()) read.push_back({"the file of node set '" + set.name + "'", set.file});
   }
@@ -97,7 +99,7 @@ std::vector<ReadFile> read_files(const Deck& deck) {
 }
 
 // Files are checked on one rank only: other ranks may not see them, and need not.
-void look_at_files(Deck& deck, Problems& problems) {
+void look_at_files(Deck& deck, const std::vector<fs::path>& tables, Problems& problems) {
   check_mesh(deck.discretization.mesh, problems);
   for (const fs::path& shells : deck.discretization.shells) {
     if (fs::is_regular_file(shells)) continue;
@@ -108,7 +110,7 @@ void look_at_files(Deck& deck, Problems& problems) {
   }
   read_numbers(deck.node_sets, problems);
   load_user_libraries(deck.materials, deck.file.parent_path(), problems);
-  check_files(written_files(deck), read_files(deck), problems);
+  check_files(written_files(deck), read_files(deck, tables), problems);
 }
 
 // A deck of another program gets one error that says where to look, instead of an error for each line.
@@ -139,18 +141,23 @@ void check_runs_alone(const Deck& deck, Problems& problems) {
 
 enum class FileCheck { no, yes };
 
-Deck parse(const std::string& text, const fs::path& file, FileCheck file_check, Problems& problems) {
+Deck parse(std::string text, const fs::path& file, FileCheck file_check, Problems& problems) {
   refuse_cabanapds(text, file, problems);
   auto list = parse_xml_or_yaml(text, problems);
   if (!list) problems.raise(file.string());
+  std::vector<fs::path> tables;
+  if (file_check == FileCheck::yes) {
+    tables = fill_tables(text, *list, file.parent_path(), problems);
+    if (!tables.empty()) list = parse_xml_or_yaml(text, problems);
+  }
   refuse_perilabs(*list, file, problems);
   const bool from_peridigm = translate_peridigm(*list, file.parent_path(), problems);
   report_duplicates(*list, "", problems);
   const Values values = check(*list, schema(), "", problems);
   Deck deck = build(values, file, problems);
-  deck.text = text;
+  deck.text = std::move(text);
   deck.from_peridigm = from_peridigm;
-  if (file_check == FileCheck::yes) look_at_files(deck, problems);
+  if (file_check == FileCheck::yes) look_at_files(deck, tables, problems);
   deck.notes = problems.notes();
   return deck;
 }
@@ -183,7 +190,10 @@ std::string contents(const fs::path& file) {
 
 Deck read_text(std::string text, const fs::path& file, const Communicator& communicator, Problems& problems) {
   Deck deck;
-  run_on_root(communicator, [&] { deck = parse(text, file, FileCheck::yes, problems); });
+  run_on_root(communicator, [&] {
+    deck = parse(text, file, FileCheck::yes, problems);
+    text = deck.text;
+  });
   communicator.broadcast(text);
   if (communicator.rank() != 0) deck = parse(text, file, FileCheck::no, problems);
   load_libraries_of_ranks(deck, communicator);

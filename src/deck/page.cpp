@@ -275,8 +275,9 @@ std::string expressions() {
          ". `pow`, `atan2`, `min` and `max` take two arguments, `gamma` is Γ, `j0 j1 i0 i1` are Bessel's. `t &lt; 1e-4 "
          "? 5 "
          ": 0` is 5 before t = 1e-4, 0 from then on. `table(t, 0, 0, 1e-3, 5)` is 0 at t = 0 and 5 at 1e-3, linear "
-         "between and "
-         "constant beyond. Statements may assign to `value`: `value = 0; if (t &lt; 1e-4) { value = 5*sin(x); }`, with "
+         "between and constant beyond; `table(t, 'pull.csv')` has these numbers from a file beside the deck, a row of "
+         "time and value for each (comma, semicolon or blanks between, comments after #, one header), in the units of "
+         "the deck. Statements may assign to `value`: `value = 0; if (t &lt; 1e-4) { value = 5*sin(x); }`, with "
          "`if`, `else` and variables (`double r = x*x;`), without loops. A sign and a power need brackets, `-(x^2)` or "
          "`(-x)^2`. In XML `<` is written `&lt;` and `&` `&amp;`.\n";
 }

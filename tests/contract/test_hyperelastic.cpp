@@ -2,6 +2,7 @@
 // relaxation at a held stretch.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "materials/hyperelastic.hpp"
@@ -38,6 +39,8 @@ Symmetric stress_at(const Hyperelastic& law, const Symmetric& stretch, double dt
   EXPECT_TRUE(found.converged);
   return found.stress;
 }
+
+Tensor askew(double angle) { return Eigen::AngleAxisd(angle, Vector(1, 2, -2) / 3).toRotationMatrix(); }
 
 constexpr double tolerance = 1e-3;  // of the issue of elastomers: a tenth of a percent
 
@@ -102,6 +105,51 @@ TEST(Hyperelastic, RelaxesByItsSeries) {
   }
 }
 
+// While the axes of the stretch turn by two radians: the integrals h_k = ∫ e^(−(t−s)/t_k) dS̃₀, summed here over forty
+// times as many steps. The law's rule of the middle errs by (Δt/t_k)²/24, 1e-4 of a branch, while the stress changes.
+TEST(Hyperelastic, RelaxesWhileItsAxesTurn) {
+  Hyperelastic law = ogden();
+  law.bulk = 3e6, law.times = {{{0.3, 0.1}, {0.2, 0.4}, {0.1, 3.0}}};
+  const auto stretch_at = [](double t) {
+    const Tensor Q = askew(2 * t);
+    return Tensor(Q * Vector(1 + t, 1 - 0.4 * t, 1 - 0.2 * t * t).asDiagonal() * Q.transpose());
+  };
+  const auto deviator_of = [](const Tensor& one) { return Tensor(one - one.trace() / 3 * Tensor::Identity()); };
+  const auto fast_at = [&](const Tensor& U) {  // dev τ₀
+    Hyperelastic alone = law;
+    alone.times = {};
+    return Tensor(U.determinant() * deviator_of(to_tensor(stress_at(alone, symmetric_part(U)))));
+  };
+  const auto pulled_back = [&](const Tensor& U) {
+    return Tensor(std::pow(U.determinant(), 2.0 / 3) * U.inverse() * fast_at(U) * U.inverse());
+  };
+  const int steps = 100, finer = 40;
+  std::array<Tensor, 3> branches{Tensor::Zero(), Tensor::Zero(), Tensor::Zero()};
+  Tensor before = Tensor::Zero();
+  Hyperelastic::State state;
+  Symmetric stress = Symmetric::Zero();
+  double worst = 0, largest = 0;
+  for (int n = 1; n <= steps * finer; ++n) {
+    const double fine = 1.0 / (steps * finer);
+    const Tensor U = stretch_at(n * fine), now = pulled_back(U);
+    for (int k = 0; k < 3; ++k) {
+      const double decay = std::exp(-0.5 * fine / law.times[k].time);
+      branches[k] = decay * decay * branches[k] + decay * (now - before);
+    }
+    before = now;
+    if (n % finer != 0) continue;
+    const double J = U.determinant();
+    stress = law.step(PointStep{Symmetric::Zero(), 1.0 / steps, J, symmetric_part(U)}, stress, state).stress;
+    Tensor expected = 0.4 * fast_at(U);
+    for (int k = 0; k < 3; ++k)
+      expected += law.times[k].fraction * deviator_of(std::pow(J, -2.0 / 3) * U * branches[k] * U);
+    worst = std::max(worst, (J * deviator_of(to_tensor(stress)) - expected).norm());
+    largest = std::max(largest, expected.norm());
+  }
+  EXPECT_LT(worst, 1e-3 * largest);
+  EXPECT_GT(worst, 0);
+}
+
 // A closed cycle takes what it dissipates and what its branches still hold, and nothing without relaxation.
 TEST(Hyperelastic, ClosedPathsTakeWhatTheyDissipate) {
   for (const bool relaxes : {false, true}) {
@@ -122,6 +170,50 @@ TEST(Hyperelastic, ClosedPathsTakeWhatTheyDissipate) {
     EXPECT_NEAR(work, point.state.stored + point.state.dissipated, 1e-4 * most) << relaxes;
     EXPECT_EQ(point.state.dissipated > 0.05 * most, relaxes);
     EXPECT_LT(point.state.stored, relaxes ? 0.01 * most : 1e-6 * most);
+  }
+}
+
+// With a change of volume, along axes that lie askew, also with exponents below 0 alone:
+// σ_i = (τ̄_i − τ̄_m)/J + K (J − 1), τ̄_i = Σ μ_p λ̄_i^α_p. Round-off of powers up to 4.
+Vector principal_stresses(const Hyperelastic& law, const Vector& stretches) {
+  const double J = stretches.prod();
+  Vector kirchhoff = Vector::Zero();
+  for (const auto& [modulus, exponent] : law.terms) {
+    for (int i = 0; i < 3; ++i) kirchhoff[i] += modulus * std::pow(stretches[i] / std::cbrt(J), exponent);
+  }
+  return ((kirchhoff.array() - kirchhoff.mean()) / J + law.bulk * (J - 1)).matrix();
+}
+
+TEST(Hyperelastic, IsClosedFormWithAChangeOfVolumeAlongAnyAxes) {
+  const Hyperelastic falling{.terms = {{{-0.4e6, -1}, {-0.3e6, -2.5}, {-0.05e6, -4}}}};
+  for (Hyperelastic law : {neo_hookean(), mooney_rivlin(), ogden(), falling}) {
+    law.bulk = 3e6;
+    for (const Vector& stretches :
+         {Vector(1.6, 1.6, 0.7), Vector(0.5, 0.5, 1.2), Vector(2.5, 0.8, 0.45), Vector(0.7, 0.7, 0.7)}) {
+      const Tensor Q = askew(0.7);
+      const Tensor U = Q * stretches.asDiagonal() * Q.transpose();
+      const Vector expected = principal_stresses(law, stretches);
+      const Tensor stress = Q.transpose() * to_tensor(stress_at(law, symmetric_part(U))) * Q;
+      EXPECT_LT((stress - Tensor(expected.asDiagonal())).norm(), 1e-12 * (law.bulk + expected.norm())) << stretches;
+    }
+  }
+}
+
+// Equibiaxial tension of a compressible sheet: no stress across it, so that its thickness is a root of the closed form.
+TEST(Hyperelastic, SheetIsAsThickAsTheClosedForm) {
+  for (Hyperelastic law : {neo_hookean(), mooney_rivlin(), ogden()}) {
+    law.bulk = 2e6;
+    for (const double s : {0.8, 1.5, 2.5}) {
+      const auto root = [&](const auto& across) {
+        double low = 0.05, high = 2;
+        for (int n = 0; n < 80; ++n) (across(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
+        return low;
+      };
+      const double thickness = root([&](double t) { return principal_stresses(law, Vector(s, s, t))[2]; });
+      const double found = root([&](double t) { return stress_at(law, Symmetric{s, s, t, 0, 0, 0})[2]; });
+      EXPECT_NEAR(found, thickness, 1e-12) << s;
+      EXPECT_GT(std::abs(thickness * s * s - 1), 0.02) << s;  // else the volume would have been kept
+    }
   }
 }
 

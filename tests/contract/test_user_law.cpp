@@ -1,6 +1,8 @@
 // Laws from shared objects: user_j2.c has J2 with linear hardening by each interface, which must be the built-in law.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <string>
 #include <utility>
@@ -126,7 +128,11 @@ TEST(UserLibrary, IsTriedAtTheStart) {
   }
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"prestressed", "gives a stress of 1e+06 Pa in a step of the undeformed state without strain"},
-      {"beyond_its_states", "changes state variable 2 of 1 (State Variables)"},
+      {"beyond_its_states", "in a step without strain changed a state variable beyond its State Variables"},
+      {"far_beyond_its_states", "in a step without strain changed a state variable beyond its State Variables"},
+      {"changes_the_strain", "in a step without strain changed a state variable beyond its State Variables"},
+      {"changes_constants", "in a step without strain changed its Constants (PROPS)"},
+      {"of_the_wrong_sign", "has an elastic stiffness of -1e+09 Pa in some direction"},
       {"far_too_stiff", "is stiffer, 1e+15 Pa, than its elastic constants say"},
       {"not_a_number", "in a step without strain gave a stress, a state variable or an energy that is no number"},
       {"reads_a_fifth_constant",
@@ -136,8 +142,10 @@ TEST(UserLibrary, IsTriedAtTheStart) {
     const std::string problem = tried(law_of(function)).problem;
     EXPECT_NE(problem.find(words), std::string::npos) << function << ": " << problem;
   }
-  const std::string beyond = tried(law_of("umat_beyond_its_states", LibraryInterface::umat)).problem;
-  EXPECT_NE(beyond.find("changes state variable 2 of 1"), std::string::npos) << beyond;
+  for (const char* const function : {"umat_beyond_its_states", "umat_far_beyond_its_states"}) {
+    const std::string beyond = tried(law_of(function, LibraryInterface::umat)).problem;
+    EXPECT_NE(beyond.find("changed a state variable beyond its State Variables"), std::string::npos) << beyond;
+  }
   const std::string warning = tried(law_of("in_megapascals")).warning;
   EXPECT_NE(warning.find("is softer, 1e+05 Pa, than its elastic constants say"), std::string::npos) << warning;
 }
@@ -145,6 +153,43 @@ TEST(UserLibrary, IsTriedAtTheStart) {
 TEST(UserLibrary, ThatIsNoneIsAnError) {
   EXPECT_THROW(loaded("/no/such/library.so", "strut_law", LibraryInterface::strut), Error);
   EXPECT_THROW(loaded(STRUT_USER_J2, "no_such_function", LibraryInterface::strut), Error);
+}
+
+// A law must find its constants in each call, and no other state than its own is changed.
+TEST(UserLibrary, SpoilsNothingBesidesItsOwn) {
+  for (const char* const function : {"changes_constants", "changes_the_strain", "far_beyond_its_states"}) {
+    const UserLaw law = law_of(function);
+    UserLaw::State state;
+    EXPECT_FALSE(
+        law.step(PointStep{Symmetric::Zero(), 1e-7, 1, Symmetric::Zero()}, Symmetric::Zero(), state).converged);
+    EXPECT_EQ(law.constants[0], bulk) << function;
+    EXPECT_EQ(state.strain[0], 0) << function;
+  }
+}
+
+// The file of the test's library with other bytes, or cut off.
+std::string damaged(const std::string& name, std::size_t size, std::size_t place = 0, const std::string& bytes = "") {
+  std::ifstream good(STRUT_USER_J2, std::ios::binary);
+  std::string content{std::istreambuf_iterator<char>(good), {}};
+  content.replace(place, bytes.size(), bytes);
+  const std::string file = ::testing::TempDir() + name;
+  std::ofstream(file, std::ios::binary) << content.substr(0, size);
+  return file;
+}
+
+TEST(UserLibrary, OfAnotherProcessorIsToldAsThat) {
+  const std::string file = damaged("other.so", std::string::npos, 18, "\x15");  // 64-bit PowerPC
+  try {
+    loaded(file, "strut_law", LibraryInterface::strut);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find("is compiled for another processor (machine 21 of ELF"), 0u)
+        << error.what();
+  }
+}
+
+TEST(UserLibraryDeathTest, DamagedLibraryIsToldAsTheFault) {
+  EXPECT_DEATH(loaded(damaged("cut.so", 4000), "strut_law", LibraryInterface::strut), "cut.so of a User .* crashed");
 }
 
 TEST(UserLibraryDeathTest, FaultIsToldAsItsOwnWithThePoint) {

@@ -8,8 +8,8 @@
 #include "materials/strut_law.h"
 
 /* Components xx yy zz and three shears, tensor components of strain. Returns the plastic strain's increment. */
-static double step_of(const double* constants, const double* increment, const double* old, double strain, double* stress,
-                      double* work) {
+static double step_of(const double* constants, const double* increment, const double* old, double strain,
+                      double* stress, double* work) {
   const double K = constants[0], G = constants[1], yield = constants[2], hardening = constants[3];
   const double volume = (increment[0] + increment[1] + increment[2]) / 3, p = (old[0] + old[1] + old[2]) / 3;
   double s[6], squared = 0, with_old = 0;
@@ -98,6 +98,14 @@ void prestressed(const struct strut_step* step) {
 void beyond_its_states(const struct strut_step* step) {
   int k;
   for (k = 0; k < (step->state_count + 1) * step->points; ++k) step->state[k] = 1;
+}
+void far_beyond_its_states(const struct strut_step* step) { step->state[(step->state_count + 40) * step->points] += 1; }
+void umat_far_beyond_its_states(double* stress, double* statev) { statev[20] = stress[0] + 1; }
+void changes_the_strain(const struct strut_step* step) { ((double*)step->strain)[0] = 1; }
+void changes_constants(const struct strut_step* step) { ((double*)step->constants)[0] *= 0.5; }
+void of_the_wrong_sign(const struct strut_step* step) {
+  int k;
+  for (k = 0; k < 6 * step->points; ++k) step->stress[k] -= 1e9 * step->rate[k] * step->dt[k % step->points];
 }
 void umat_beyond_its_states(double* stress, double* statev) { statev[1] = stress[0] + 1; }
 void in_megapascals(const struct strut_step* step) {

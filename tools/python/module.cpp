@@ -119,6 +119,23 @@ class Signals {
   std::array<struct sigaction, caught.size()> before_ = {};
 };
 
+// Runs share MPI, the output and the handlers of signals of this process: one works at a time, and none is looked at
+// meanwhile.
+class Working {
+ public:
+  Working() { check(), at_work_ = true; }
+  ~Working() { at_work_ = false; }
+  Working(const Working&) = delete;
+  Working& operator=(const Working&) = delete;
+
+  static void check() {
+    if (at_work_) throw Error("a run works in another thread of this process; expected one that waits for it");
+  }
+
+ private:
+  static inline bool at_work_ = false;  // read and set with the lock of the interpreter
+};
+
 class PythonRun {
  public:
   // `told`: an object with write(text) and flush(), which gets the output of the run. Only rank 0's mesh is used.
@@ -136,27 +153,36 @@ class PythonRun {
   bool advance(std::optional<int> steps, std::optional<double> time) {
     bool goes_on = false;
     const Pause never;
-    working([&] { goes_on = run().advance({steps.value_or(never.steps), time.value_or(never.time)}); });
+    working([&] { goes_on = mine().advance({steps.value_or(never.steps), time.value_or(never.time)}); });
     return goes_on;
   }
 
   void end() {
-    working([&] { run().end(); });
+    working([&] { mine().end(); });
   }
 
   Run& run() {
-    if (!run_) throw Error("the run is closed: Python ends");
-    return *run_;
+    Working::check();
+    return mine();
   }
   const Body& body() { return run().scene().body; }
   const Communicator& ranks() const { return ranks_; }
-  const HistoryRows& rows() const { return rows_; }
+  const HistoryRows& rows() {
+    Working::check();
+    return rows_;
+  }
   void close() { run_.reset(); }
 
  private:
+  Run& mine() {
+    if (!run_) throw Error("the run is closed: Python ends");
+    return *run_;
+  }
+
   // Runs `action` without the lock of the interpreter; what it prints goes to Python.
   template <class Action>
   void working(const Action& action) {
+    const Working alone;
     const py::scoped_ostream_redirect redirected(std::cout, told_);
     int number = 0;
     {
@@ -220,6 +246,7 @@ py::tuple history(PythonRun& run) {
 // All problems of a deck with its mesh, as the start of a run would find them; "" if there are none.
 std::string problems_of(const std::string& text, const std::string& name, const io::Mesh* mesh) {
   const Communicator ranks = world();
+  const Working alone;
   try {
     deck::Problems problems;
     const deck::Deck deck = deck::read_text(text, name, ranks, problems);

@@ -6,10 +6,9 @@ import re
 import subprocess
 import xml.etree.ElementTree as tree
 
+import read_files
 from strut_tools import fail, nearest, program
 
-# Keys of the files that a run reads beside its mesh, anywhere in a section.
-FILES = {"Materials": "Library", "Discretization": "File Name", "Start From": "Checkpoint"}
 NUMBER = r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,2})?\s*"
 
 
@@ -24,6 +23,8 @@ class Deck:
             fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
         except tree.ParseError as error:
             fail(f"{path} is not a deck (XML): {error}")
+        here = os.path.dirname(os.path.abspath(path))  # value_at() is asked elsewhere
+        read_files.rename_tables(self.root, lambda name: os.path.join(here, name))
 
     def section(self, *names):
         """The element of a section; None where there is none."""
@@ -71,13 +72,9 @@ class Deck:
         return deck
 
     def with_files(self, renamed):
-        """The same, with other names of the files that it reads beside its mesh: renamed(name) for each."""
+        """The same, with other names of the files that it reads: renamed(name) for each."""
         deck = Deck.of(self.path, self.text)
-        for name, key in FILES.items():
-            place = deck.section(name)
-            for element in [] if place is None else place.iter("Parameter"):
-                if element.get("name") == key:
-                    element.set("value", renamed(element.get("value")))
+        read_files.rename(deck.root, renamed)
         deck.text = tree.tostring(deck.root, "unicode")
         return deck
 

@@ -18,13 +18,7 @@ def of(deck, recipe):
     if mesh and recipe is not None:
         made = name_within(mesh)
         deck = deck.with_value("Discretization > Input Mesh File", made)
-    elif mesh:
-        deck = linked(deck, "Discretization > Input Mesh File", mesh, here, links)
-    deck = deck.with_files(lambda path: link(path, here, links))
-    conditions = deck.section("Boundary Conditions")
-    for element in [] if conditions is None else conditions.findall("Parameter"):  # Peridigm's sets, by a file
-        if "Node Set" in element.get("name"):
-            deck = linked(deck, f"Boundary Conditions > {element.get('name')}", element.get("value"), here, links)
+    deck = deck.with_files(lambda path: path if path == made else link(path, here, links))
     text = recipe and re.sub(r"(?m)^(\s*file\s*=\s*)([^#\n]*[^#\s])", lambda m: m[1] + link(m[2], here, links), recipe.text)
     check_written(deck, [*links, *OWN, os.path.basename(deck.path), *([made, os.path.basename(recipe.path)] if made else [])])
     return deck, text, made, links
@@ -39,12 +33,8 @@ def leads_out(path):
     return os.path.isabs(path) or os.path.normpath(path).split(os.sep)[0] == os.pardir
 
 
-def linked(deck, key, path, here, links):
-    return deck.with_value(key, link(path, here, links))
-
-
 def link(path, here, links):
-    """Its name in the folder; a value that is no file, such as a list of numbers, stays as it is."""
+    """Its name in the folder; the name of no file stays as it is."""
     file = os.path.join(here, path)
     if not os.path.isfile(file):
         return path

@@ -5,6 +5,7 @@
 //   or, and, equality, order, sum, product: operands with operators of one rank between, from the left
 //   power:       {- | + | !} primary [^ power]
 //   primary:     number | name | function ( … ) | ( expression ) | table ( expression {, place, value} )
+// (table ( expression , 'file' ) has become that before: table_files.hpp)
 // clang-format on
 #include <algorithm>
 #include <cctype>
@@ -321,7 +322,8 @@ class ExpressionParser {
   double constant() {
     const bool negative = take("-");
     const char c = next();
-    if (std::isdigit(static_cast<unsigned char>(c)) == 0 && c != '.') fail("expected a number");
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0 && c != '.')
+      fail("expected a number, or instead of all of them the name of a file in single quotes");
     number();
     const double value = result_.program_.back().number;
     result_.program_.pop_back();

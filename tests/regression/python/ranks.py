@@ -40,14 +40,19 @@ run.watch(lambda run: calls.append(run.steps) or run.steps < 4, every=2)
 assert calls == [2, 4]
 run.watch(lambda run: rank != 1 or run.steps < 8, every=2)  # rank 1 alone stops: all do
 assert run.steps == 8 and not run.has_ended
-try:
-    run.watch(lambda run: 1 / 0 if rank == 1 else None, every=1)
-except ZeroDivisionError:
-    assert rank == 1
-except strut.Error as error:
-    assert rank != 1 and "the callback failed on another rank" in str(error)
-else:
-    raise AssertionError("no error of the callback")
+for kind in (ZeroDivisionError, KeyboardInterrupt):
+    def fail(_, kind=kind):
+        if rank == 1:
+            raise kind
+
+    try:
+        run.watch(fail, every=1)
+    except kind:
+        assert rank == 1
+    except strut.Error as error:
+        assert rank != 1 and "the callback failed on another rank" in str(error)
+    else:
+        raise AssertionError("no error of the callback")
 run.advance()
 assert run.is_over
 fails(lambda: strut.run(block.deck(Discretization={"Type": "Memory"}, Solver={"Final Time": -1.0}), mesh), "Solver > Final Time")

@@ -12,12 +12,14 @@
 #include "base/deduplicated.hpp"
 #include "base/errors.hpp"
 #include "base/math/function.hpp"
+#include "base/math/table_files.hpp"
 #include "base/math/tensors.hpp"
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
 #include "base/parallel/launch.hpp"
 #include "base/parallel/reproducible_sum.hpp"
 #include "base/timing.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace strut {
 namespace {
@@ -230,6 +232,64 @@ TEST(Function, TakesTablesOfAnyLength) {
   EXPECT_GT(text.size(), 200000);
   EXPECT_EQ(Function::parse(text)(0, 0, 0, 17000.5), 2 * (17000.0 * 17000 + 17000.5));
   EXPECT_THROW(Function::parse(text + "+x" + std::string(10000, '-') + "x"), Error);
+}
+
+// A table in a file: two numbers a row.
+class TableFiles : public testing::Test {
+ protected:
+  const Communicator world;
+  const TemporaryFolder folder{world};
+
+  std::string numbers(const std::string& content) const {
+    const std::string file = (folder / ("pull" + std::to_string(world.rank()) + ".csv")).string();
+    std::ofstream(file, std::ios::binary) << content;
+    return numbers_in_table(file);
+  }
+  void expect_problem(const std::string& content, const std::string& words) const {
+    try {
+      numbers(content);
+      ADD_FAILURE() << content;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  }
+};
+
+TEST_F(TableFiles, AreReadAsInstrumentsWriteThem) {
+  for (const char* content :
+       {"0,0\n1e-3,-5.25\n", "\xef\xbb\xbf# of a press\r\nTime,Force\r\n\r\n+0, 0\r\n0.001 , -5.25",
+        "t / s;F / N\n0;0\n# a pause\n1E-3;-525e-2\n", "0 0\n\t1e-3 \t -5.25"}) {
+    EXPECT_EQ(numbers(content), "0, 0, 0.001, -5.25") << content;
+  }
+  EXPECT_EQ(numbers("-1 0.1\n0 0.30000000000000004"), "-1, 0.1, 0, 0.30000000000000004");  // every bit
+}
+
+TEST_F(TableFiles, AreRefusedByFileAndLine) {
+  expect_problem("", "pull" + std::to_string(world.rank()) + ".csv has no row; expected two numbers");
+  expect_problem("Time,Force\n# none\n", "has no row");
+  expect_problem("Time,Force\ns,N\n0,0\n", "line 2: 's,N'; expected two numbers");  // two headers
+  expect_problem("nan,0\n1,1\n", "line 1: 'nan,0'");                                // no header: it has a number
+  expect_problem("0,0\n1,x\n", "line 2: '1,x'; expected two numbers, the place (the time, s) and the value");
+  expect_problem("0,0\n1,inf\n", "line 2");
+  expect_problem("0,0\n1,2,3\n", "line 2: '1,2,3'");
+  expect_problem("0,0\n1,,3\n", "line 2: '1,,3'");
+  expect_problem("0,001;5\n", "line 1: '0,001;5'");  // commas for points
+  expect_problem("0\n", "line 1: '0'");
+  expect_problem("# a\n0,0\n2,1\n\n2,1\n", "line 5: 2 after 2; expected places that rise");
+  expect_problem("0,0\n2,1\n1,1\n", "line 3: 1 after 2");
+  EXPECT_THROW(numbers_in_table(folder / "none.csv"), Error);
+  EXPECT_THROW(numbers_in_table(folder / ""), Error);
+}
+
+TEST(Tables, AreNamedInQuotesAsTheLastWordOfACall) {
+  const std::string text = "2*table(t, 'a b.csv') + table( t - min(1,2) ,'c.csv' )";
+  EXPECT_EQ(table_files(text), (std::vector<std::string>{"a b.csv", "c.csv"}));
+  const std::string filled = with_table(with_table(text, "c.csv", "0, 7"), "a b.csv", "0, 1, 1, 2");
+  EXPECT_EQ(filled, "2*table(t, 0, 1, 1, 2) + table( t - min(1,2) ,0, 7 )");
+  EXPECT_EQ(Function::parse(filled)(0, 0, 0, 0.5), 10);
+  for (const char* none : {"table(t, 0, 0, 1, 5)", "'", "don't, 'x", "'a.csv'", "f('a.csv')", ", 'a.csv'", ""})
+    EXPECT_TRUE(table_files(none).empty()) << none;
+  EXPECT_THROW(Function::parse("table(t, pull.csv)"), Error);
 }
 
 // The list that the reference page shows.

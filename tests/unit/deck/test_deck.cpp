@@ -610,6 +610,41 @@ TEST(Deck, ProblemsCanBeCollectedInsteadOfThrown) {
   EXPECT_EQ(deck.blocks.size(), 2u);
 }
 
+// Tables in files stand beside the deck; its text then has their numbers, on all ranks and in checkpoints.
+TEST(Deck, ReadsTablesInFiles) {
+  const DeckFolder folder;
+  const std::string with_file = changed(full_deck, "1e-3*y*t", "y*table(t, 'pull.csv')");
+  folder.write("pull.csv", "s,m\n0,0\n1e-4,2\n");
+  folder.write("deck.xml", with_file);
+  const Deck deck = deck::read(folder / "deck.xml", folder.world());
+  const auto pulled = [](const Deck& one) { return std::get<PrescribedMotion>(one.conditions[1].kind).value; };
+  EXPECT_DOUBLE_EQ(pulled(deck)(0, 3, 0, 5e-5), 3);
+  EXPECT_TRUE(changes(deck.text, changed(full_deck, "1e-3*y*t", "y*table(t, 0, 0, 1e-4, 2)")).refused.empty());
+
+  folder.write("pull.csv", "s,m\n0,0\n1e-4,3\n");
+  const Deck other = deck::read(folder / "deck.xml", folder.world());
+  EXPECT_EQ(changes(deck.text, other.text).refused,
+            std::vector<std::string>{"Boundary Conditions > pull > Value: y*table(t,0,0,1e-04,2) before, "
+                                     "y*table(t,0,0,1e-04,3) now"});
+}
+
+TEST(Deck, TablesInFilesAreRefusedByTheirKeyFileAndLine) {
+  const DeckFolder folder;
+  const auto problems_with = [&](const std::string& table) {
+    folder.write("pull.csv", table);
+    folder.write("deck.xml", changed(full_deck, "1e-3*y*t", "y*table(t, 'pull.csv')"));
+    Problems problems;
+    deck::read(folder / "deck.xml", folder.world(), problems);
+    return problems.lines();
+  };
+  const std::string where = "Boundary Conditions > pull > Value: " + (folder / "pull.csv").string();
+  EXPECT_EQ(problems_with("0,0\n0,1\n"),
+            std::vector<std::string>{where + ", line 2: 0 after 0; expected places that rise"});
+  EXPECT_EQ(problems_with("#"),
+            std::vector<std::string>{where + " has no row; expected two numbers, the place (the time, "
+                                             "s) and the value"});
+}
+
 // ---- Differences between two decks ----------------------------------------------------------------------------------
 
 TEST(Changes, OfWritingAloneAreNone) {
@@ -649,6 +684,18 @@ TEST(Changes, OfWhatARunIsMadeOfAreRefusedByTheirKeys) {
     EXPECT_EQ(one.refused, std::vector<std::string>{told});
     EXPECT_TRUE(one.loads.empty() && one.accepted.empty()) << told;
   }
+}
+
+// Two measured amplitudes differ somewhere in the middle.
+TEST(Changes, OfLongTextsAreShownWhereTheyBegin) {
+  std::string table = "table(t";
+  for (int n = 0; n < 1000; ++n) table += ", " + std::to_string(n) + ", 0";
+  const std::string before = changed(full_deck, "1e-3*y*t", table + ")");
+  const Changes one = changes(before, changed(before, ", 500, 0, 501", ", 500, 7, 501"));
+  ASSERT_EQ(one.refused.size(), 1u);
+  EXPECT_LT(one.refused[0].size(), 400u);
+  EXPECT_NE(one.refused[0].find("499,0,500,0,501,0"), std::string::npos) << one.refused[0];
+  EXPECT_NE(one.refused[0].find("499,0,500,7,501,0"), std::string::npos) << one.refused[0];
 }
 
 TEST(Changes, AWholeSectionIsNamedOnce) {

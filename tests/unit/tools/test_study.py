@@ -251,15 +251,16 @@ class Studies(InFolder):
             '<Parameter name="Library" type="string" value="../laws/mine.so"/></ParameterList>').replace(
             '<ParameterList name="Boundary Conditions">', '<ParameterList name="Start From">'
             '<Parameter name="Checkpoint" type="string" value="../laws/one.restart"/></ParameterList>\n'
-            '<ParameterList name="Boundary Conditions">')
+            '<ParameterList name="Boundary Conditions">\n<ParameterList name="pull">'
+            '<Parameter name="Value" type="string" value="2*table(t, \'../laws/pull.csv\')"/></ParameterList>')
         (self.folder / "bar.recipe").unlink()
         for folder in ("meshes", "laws", "decks/sets"):
             (self.folder / folder).mkdir(parents=True)
         for name, text in (("decks/bar.xml", deck), ("decks/sets/foot", "1 2"), ("meshes/bar.g", "a mesh"),
-                           ("laws/mine.so", "a law"), ("laws/one.restart", "a checkpoint"),
+                           ("laws/mine.so", "a law"), ("laws/one.restart", "a checkpoint"), ("laws/pull.csv", "0 1"),
                            ("decks/bar.study", "deck = bar.xml\nvary v = 1 2\nset Boundary Conditions > flight > Value = {v}\n")):
             (self.folder / name).write_text(text)
-        programs = self.programs("#!/bin/sh\ncat bar.g sets/foot mine.so one.restart && grep -q 'value=\"bar.g\"' bar.xml && grep -q 'value=\"mine.so\"' bar.xml || exit 1\n")
+        programs = self.programs("#!/bin/sh\ncat bar.g sets/foot mine.so one.restart pull.csv && grep -q \"t, 'pull.csv')\" bar.xml && grep -q 'value=\"bar.g\"' bar.xml && grep -q 'value=\"mine.so\"' bar.xml || exit 1\n")
         status, out, errors = self.study("decks/bar.study", "out", **programs)
         self.assertEqual((status, errors), (0, ""), out)
         self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()),

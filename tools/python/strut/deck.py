@@ -1,10 +1,13 @@
 """A deck as a dictionary."""
 import os
+import re
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
 from . import _core
+
+NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff]")  # which XML does not have
 
 
 class Deck(dict):
@@ -36,11 +39,15 @@ def lines_of(section, indent, path):
             continue
         where = f"{path} > {name}"
         if isinstance(value, dict):
+            if found := NO_TEXT.search(str(name)):
+                raise _core.Error(f"{where!r}: the character {found[0]!r}; expected a name")
             yield f"{indent}<ParameterList name={attribute(name)}>"
             yield from lines_of(value, indent + "  ", where)
             yield f"{indent}</ParameterList>"
         else:
             kind, text = typed(value, where)
+            if found := NO_TEXT.search(f"{name}{text}"):
+                raise _core.Error(f"{where!r}: the character {found[0]!r}; expected a text")
             yield f'{indent}<Parameter name={attribute(name)} type="{kind}" value={attribute(text)}/>'
 
 

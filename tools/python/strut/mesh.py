@@ -25,13 +25,18 @@ def mesh(nodes, blocks=None, sets=None, volumes=None):
     4 (tetrahedra) or 1 (spheres, which need volumes: {name: m³}); sets: {name: nodes}. Or the name of an Exodus file."""
     if isinstance(nodes, (str, os.PathLike)):
         return _core.Mesh.of_file(os.fspath(nodes))
-    nodes = np.asarray(nodes, float)
+    nodes = numbers(nodes, "nodes")
+    for what, given in (("blocks", blocks), ("sets", sets), ("volumes", volumes)):
+        if not isinstance(given or {}, dict):
+            raise _core.Error(f"{what}: {type(given).__name__}; expected a dictionary, {{name: …}}")
+    if unknown := set(volumes or {}) - set(blocks or {}):
+        raise _core.Error(f"volumes of '{sorted(map(str, unknown))[0]}', which is no block; expected {', '.join(map(str, blocks or ['none']))}")
     if nodes.ndim != 2 or nodes.shape[1] != 3 or not np.all(np.isfinite(nodes)):
         raise _core.Error(f"nodes: an array of shape {nodes.shape}; expected N x 3 finite numbers, in m")
     made = _core.Mesh()
     made.set_nodes(nodes)
     for name, elements in (blocks or {}).items():
-        add_block(made, name, np.asarray(elements), (volumes or {}).get(name), len(nodes))
+        add_block(made, name, array(elements, f"block '{name}'"), (volumes or {}).get(name), len(nodes))
     for name, members in (sets or {}).items():
         made.add_set(checked(name), indices(members, f"set '{name}'", len(nodes)))
     return made
@@ -44,40 +49,59 @@ def add_block(made, name, elements, volumes, count):
     if elements.ndim != 2 or elements.shape[1] not in TYPES:
         raise _core.Error(f"{user}: an array of shape {elements.shape}; expected the nodes of one element in a row: 8, 4 or 1")
     kind = TYPES[elements.shape[1]]
-    volumes = np.asarray([] if volumes is None else volumes, float)
+    volumes = numbers([] if volumes is None else volumes, user)
     if volumes.size != (len(elements) if kind == "SPHERE" else 0) or not np.all((volumes > 0) & np.isfinite(volumes)):
         raise _core.Error(f"{user}: {volumes.size} volumes of {len(elements)} elements of type {kind}; expected one > 0, in m³, for each "
                           "sphere, and none of other elements")
     made.add_block(name, kind, indices(elements, user, count), volumes)
 
 
+def array(values, user):
+    try:
+        return np.asarray(values)
+    except ValueError:  # rows of unequal length
+        raise _core.Error(f"{user}: not an array; expected rows of equal length") from None
+
+
+def numbers(values, user):
+    values = array(values, user)
+    if values.size and values.dtype.kind not in "biuf":
+        raise _core.Error(f"{user}: an array of type {values.dtype}; expected real numbers")
+    return values.astype(float)
+
+
 def checked(name):
+    if not isinstance(name, str):
+        raise _core.Error(f"{name!r} cannot be the name of a block or set; expected a text")
     if len(name.split()) != 1:
         raise _core.Error(f"'{name}' cannot be the name of a block or set: it is empty or has a blank")
     return name
 
 
-def indices(numbers, user, count):
-    numbers = np.asarray(numbers)
-    if numbers.size and not np.issubdtype(numbers.dtype, np.integer):
-        raise _core.Error(f"{user}: numbers of type {numbers.dtype}; expected whole ones, the nodes from 0")
-    wrong = numbers[(numbers < 0) | (numbers >= count)]
+def indices(nodes, user, count):
+    nodes = array(nodes, user)
+    if nodes.size and not np.issubdtype(nodes.dtype, np.integer):
+        raise _core.Error(f"{user}: numbers of type {nodes.dtype}; expected whole ones, the nodes from 0")
+    wrong = nodes[(nodes < 0) | (nodes >= count)]
     if wrong.size:
         raise _core.Error(f"{user} refers to node {wrong.flat[0]}; the nodes are 0 to {count - 1}")
-    return numbers
+    return nodes
 
 
 def voxels(solid, spacing, origin=(0, 0, 0), name="foam", gather=None, smallest=0.3):
-    """The voxels of an array [x, y, z] (of a stack of pages, [z, y, x], give stack.T) that are solid, one element each; sets NAME_xmin, … of the faces of the box that
-    they touch. spacing: of voxels, m, one or three numbers; origin: the lower corner, m. gather=N: cells of N³ voxels,
-    partly filled (tools/README.md); solid may then be the part of each voxel that is solid, 0 to 1, and cells that are
-    less than `smallest` full join a neighbor."""
-    solid = np.asarray(solid)
+    """The voxels of an array [x, y, z] (of a stack of pages, [z, y, x], give stack.T) that are solid, one element
+    each; sets NAME_xmin, … of the faces of the box that they touch. spacing: of voxels, m, one or three numbers; origin:
+    the lower corner, m. gather=N: cells of N³ voxels, partly filled (tools/README.md); solid may then be the part of each
+    voxel that is solid, 0 to 1, and cells that are less than `smallest` full join a neighbor."""
+    solid = array(solid, "voxels")
     if solid.dtype.kind not in "biuf":
         raise _core.Error(f"voxels: an array of type {solid.dtype}; expected truth values, or numbers from 0 to 1")
+    if solid.dtype.kind == "f" and not np.all((solid >= 0) & (solid <= 1)):
+        wrong = solid[~((solid >= 0) & (solid <= 1))].flat[0]
+        raise _core.Error(f"voxels: {wrong} in the array; expected truth values, or numbers from 0 to 1")
     if solid.ndim != 3 or not np.any(solid > 0):
         raise _core.Error(f"voxels: an array of shape {solid.shape}{'' if np.any(solid > 0) else ', none of them solid'}; expected x, y, z")
-    edges, lower = np.asarray(spacing, float), np.asarray(origin, float)
+    edges, lower = numbers(spacing, "voxels: spacing"), numbers(origin, "voxels: origin")
     if edges.shape not in ((), (1,), (3,)) or not (np.all(edges > 0) and np.all(np.isfinite(edges))):
         raise _core.Error(f"voxels: a spacing of {spacing}; expected one or three numbers > 0, in m")
     if lower.shape != (3,) or not np.all(np.isfinite(lower)):

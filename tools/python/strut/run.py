@@ -43,7 +43,7 @@ class Fields(Mapping):
         self.run = run
 
     def __getitem__(self, name):
-        return self.run.core.field(name)
+        return self.run.core.field(str(name))
 
     def __iter__(self):
         return iter(self.run.core.names)
@@ -92,6 +92,8 @@ class Run:
         steps are left."""
         if steps is not None:
             steps = whole_number(steps, "steps", 0)
+        if until is not None and not (isinstance(until, (int, float, np.number)) and np.isfinite(until)):
+            raise _core.Error(f"until: {until!r}; expected a time, in s")
         return self.telling(self.core.advance, steps, until)
 
     def advance_to(self, time):
@@ -101,11 +103,13 @@ class Run:
         """Goes on like advance(until=…), and calls callback(run) after so many steps each; False stops there, and the
         run may go on later. An error of a callback on one rank is one on all."""
         every = whole_number(every, "every", 1)
+        if not callable(callback):
+            raise _core.Error(f"callback: {callback!r}; expected a function of the run")
         while self.advance(every, until) and (until is None or self.time < until):
             error = goes_on = None
             try:
                 goes_on = callback(self) is not False
-            except Exception as raised:
+            except BaseException as raised:  # Ctrl-C, too, reaches the ranks at different times
                 error = raised
             if _core.any(error is not None):
                 raise error or _core.Error("the callback failed on another rank")

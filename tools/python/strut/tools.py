@@ -5,18 +5,20 @@ import os
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree as tree
 from dataclasses import dataclass
 
 import numpy as np
 
 from . import _core
 from .deck import Deck
+from .mesh import part_of_the_tools
 from .places import PROGRAMS, TOOLS
 from .run import Run
 
 STRESS = "Stress (Pa) of "  # in a table of tools/curve
 FILE = "sample"  # of what is written for a tool
-READ = {"Discretization": ("Input Mesh File", "File Name"), "Materials": ("Library",), "Start From": ("Checkpoint",)}  # files
+read_files = part_of_the_tools("shared", "read_files")
 TEXTS = ("measure", "unit", "finding")  # columns of convergence.csv
 
 
@@ -125,21 +127,15 @@ def deck_of_run(run, folder):
 def write_deck(deck, mesh, folder):
     deck = deck if isinstance(deck, Deck) else Deck(deck)
     here = os.path.dirname(deck.name)
-    sections = {**deck, **{name: with_files(deck[name], keys, lambda path: os.path.relpath(os.path.join(here, path), folder))
-                           for name, keys in READ.items() if name in deck}}
     if mesh is not None:
         mesh.write(os.path.join(folder, FILE + ".g"))
-        sections["Discretization"] = {**sections.get("Discretization", {}), "Type": "Exodus", "Input Mesh File": FILE + ".g"}
+        points = {**deck.get("Discretization", {}), "Type": "Exodus", "Input Mesh File": os.path.abspath(os.path.join(folder, FILE + ".g"))}
+        deck = Deck({**deck, "Discretization": points}, deck.name)
+    root = tree.fromstring(deck.to_xml())
+    read_files.rename(root, lambda path: os.path.abspath(os.path.join(here, path)))
     path = os.path.join(folder, FILE + ".xml")
-    with open(path, "w") as file:
-        file.write(Deck(sections, deck.name).to_xml())
+    tree.ElementTree(root).write(path, encoding="utf-8")
     return path
-
-
-def with_files(section, keys, renamed):
-    """The section with other names of the files that these keys name, at any depth."""
-    return {key: with_files(value, keys, renamed) if isinstance(value, dict)
-            else renamed(value) if key in keys and isinstance(value, str) else value for key, value in section.items()}
 
 
 def columns(path):

@@ -1,0 +1,124 @@
+#include "base/math/table_files.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+#include "base/errors.hpp"
+#include "base/files.hpp"
+
+namespace strut {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* blanks = " \t\r\n";
+constexpr std::uintmax_t largest =
+    10'000'000;  // bytes: some 300,000 rows; checkpoints and messages between ranks hold them
+
+struct Quoted {
+  std::size_t begin, end;  // of the name, without its quotes
+};
+
+// The next name in quotes that is the last word of a call: ", 'pull.csv')".
+std::optional<Quoted> next_name(const std::string& text, std::size_t from) {
+  for (std::size_t at = text.find('\'', from); at != std::string::npos; at = text.find('\'', at + 1)) {
+    const std::size_t end = text.find('\'', at + 1);
+    if (end == std::string::npos) return std::nullopt;
+    const std::size_t before = at == 0 ? std::string::npos : text.find_last_not_of(blanks, at - 1);
+    const std::size_t after = text.find_first_not_of(blanks, end + 1);
+    if (before == std::string::npos || text[before] != ',') continue;
+    if (after == std::string::npos || text[after] != ')') continue;
+    return Quoted{at + 1, end};
+  }
+  return std::nullopt;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+}
+
+// Between commas or semicolons, else between blanks.
+std::vector<std::string_view> cells(std::string_view line) {
+  const bool by_mark = line.find_first_of(",;") != std::string_view::npos;
+  std::vector<std::string_view> found;
+  while (!line.empty()) {
+    const std::size_t end = std::min(line.find_first_of(by_mark ? ",;" : blanks), line.size());
+    found.push_back(trimmed(line.substr(0, end)));
+    line.remove_prefix(std::min(end + 1, line.size()));
+    if (!by_mark) line = trimmed(line);
+  }
+  return found;
+}
+
+std::optional<double> number_in(std::string_view cell) {
+  if (cell.starts_with('+')) cell.remove_prefix(1);
+  double number = 0;
+  const auto [rest, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  const bool whole = failure == std::errc() && rest == cell.data() + cell.size();
+  return whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+std::string shortest(double number) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
+}
+
+}  // namespace
+
+std::vector<std::string> table_files(const std::string& expression) {
+  std::vector<std::string> names;
+  for (auto name = next_name(expression, 0); name; name = next_name(expression, name->end + 1))
+    names.push_back(expression.substr(name->begin, name->end - name->begin));
+  return names;
+}
+
+std::string with_table(const std::string& text, const std::string& name, const std::string& numbers) {
+  std::string filled;
+  std::size_t from = 0;
+  for (auto next = next_name(text, 0); next; next = next_name(text, next->end + 1)) {
+    if (text.compare(next->begin, next->end - next->begin, name) != 0) continue;
+    filled += text.substr(from, next->begin - 1 - from) + numbers;
+    from = next->end + 1;
+  }
+  return filled + text.substr(from);
+}
+
+std::string numbers_in_table(const fs::path& file) {
+  if (const std::string reason = unreadable(file); !reason.empty()) throw Error(reason);
+  const std::string expected = "; expected two numbers, the place (the time, s) and the value";
+  if (fs::file_size(file) > largest) {
+    throw Error(file.string() + " has " + std::to_string(fs::file_size(file)) + " bytes; expected at most " +
+                std::to_string(largest));
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string numbers;
+  std::optional<double> before;
+  bool has_header = false;
+  int row = 0;
+  for (std::string line; std::getline(stream, line);) {
+    if (++row == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
+    const std::string_view content = trimmed(line);
+    if (content.empty() || content[0] == '#') continue;
+    const std::vector<std::string_view> words = cells(content);
+    const std::string where = file.string() + ", line " + std::to_string(row) + ": ";
+    const auto place = number_in(words[0]), value = words.size() == 2 ? number_in(words[1]) : std::nullopt;
+    const bool is_header = !before && !has_header && std::none_of(words.begin(), words.end(), number_in);
+    if (has_header |= is_header; is_header) continue;
+    if (!place || !value) throw Error(where + "'" + std::string(content.substr(0, 60)) + "'" + expected);
+    if (before && !(*place > *before))
+      throw Error(where + shortest(*place) + " after " + shortest(*before) + "; expected places that rise");
+    numbers += (before ? ", " : "") + shortest(*place) + ", " + shortest(*value);
+    before = place;
+  }
+  if (!before) throw Error(file.string() + " has no row" + expected);
+  return numbers;
+}
+
+}  // namespace strut

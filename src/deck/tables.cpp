@@ -1,0 +1,42 @@
+#include "deck/tables.hpp"
+
+#include <map>
+
+#include "base/errors.hpp"
+#include "base/math/table_files.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+// The paths of the keys that name each file.
+using Users = std::map<std::string, std::vector<std::string>>;
+
+void find_users(const List& list, const std::string& path, Users& users) {
+  for (const Parameter& parameter : list.parameters) {
+    for (const std::string& name : table_files(parameter.value)) users[name].push_back(path_to(path, parameter.name));
+  }
+  for (const List& section : list.lists) find_users(section, path_to(path, section.name), users);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> fill_tables(std::string& text, const List& list, const std::filesystem::path& folder,
+                                               Problems& problems) {
+  Users users;
+  find_users(list, "", users);
+  std::vector<std::filesystem::path> files;
+  for (const auto& [name, paths] : users) {
+    files.push_back(folder / name);
+    std::string numbers = "0, 0";  // after a problem: what else is wrong can be told
+    try {
+      numbers = numbers_in_table(files.back());
+    } catch (const Error& error) {
+      for (const std::string& path : paths) problems.add(path, error.what());
+    }
+    text = with_table(text, name, numbers);
+  }
+  return files;
+}
+
+}  // namespace strut::deck
