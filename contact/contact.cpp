@@ -58,7 +58,7 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   contact_pair.skins = skin_distances_by_speed(kinematics, blocks, contact_pair.mean_velocity, contact_pair.skin, dt);
   contact_pair.pairs =
       find_pairs(kinematics, blocks, radius_of(contact_pair.model.law), contact_pair.skins, broken_before_);
-  if (contact_pair.surfaces) contact_pair.surfaces->take(blocks, contact_pair.pairs);
+  if (contact_pair.surfaces) contact_pair.surfaces->take(kinematics.domain, blocks, broken_before_, contact_pair.pairs);
   if (contact_pair.model.friction > 0) contact_pair.couples.take(kinematics.domain, contact_pair.pairs.owned);
   contact_pair.frame = frame_of(kinematics, blocks, contact_pair.pairs);
   contact_pair.searched = true;
@@ -180,7 +180,7 @@ void Contact::add_normal_forces(const Kinematics& kinematics, double dt, Contact
   Pairs& pairs = contact_pair.pairs;
   if (contact_pair.surfaces) {
     const auto& law = std::get<SurfaceLaw>(contact_pair.model.law);
-    contact_pair.result = contact_pair.surfaces->add_normal_forces(kinematics, law, pairs, force_density);
+    contact_pair.result = contact_pair.surfaces->add_normal_forces(kinematics, law, dt == 0, pairs, force_density);
   } else {
     const auto& law = std::get<PairLaw>(contact_pair.model.law);
     contact_pair.result = contact::add_normal_forces(kinematics, dt, law, pairs, force_density, contact_pair.loads);
@@ -321,7 +321,8 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
   archive.number("searches", searches_);
   for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
     ContactPair& pair = contact_pairs_[m];
-    if (!pair.surfaces || pair.model.friction == 0) continue;
+    const bool may_break = pair.blocks.one_body && !kinematics.domain.families.broken.empty();
+    if (!pair.surfaces || (pair.model.friction == 0 && !may_break)) continue;
     pair.surfaces->serialize(archive, "contact_" + std::to_string(m), kinematics.domain, pair.blocks);
   }
   if (!archive.loading()) return;

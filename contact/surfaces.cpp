@@ -66,14 +66,14 @@ void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, con
   const std::vector<double> densities(domain.owned, 1);
   SkinDistances none{std::vector<float>(blocks.points.size(), 0), 0};
   Pairs pairs = find_pairs({domain, at_rest, densities}, blocks, law.radius, none);
-  take(blocks, pairs);
+  take(domain, blocks, {}, pairs);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     double& threshold = points_[places_[k]].threshold;
     threshold = std::max(threshold, feel(pairs, k).share);
   }
 }
 
-void Surfaces::take(const BlockPair& blocks, Pairs& pairs) {
+void Surfaces::take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& counts, Pairs& pairs) {
   places_.clear();
   due_.clear();
   std::vector<Vector> slips(blocks.points.size(), Vector::Zero());
@@ -94,6 +94,7 @@ void Surfaces::take(const BlockPair& blocks, Pairs& pairs) {
   seen_.clear();
   set_smallest_reaches(pairs);
   set_volumes(pairs);
+  see_through_breaks(domain, counts, pairs);
 }
 
 // Sets the volumes that ρ sums.
@@ -117,16 +118,42 @@ void Surfaces::set_smallest_reaches(const Pairs& pairs) {
 }
 
 // Points with broken bonds are at a surface from then on.
-void Surfaces::take_broken(const Domain& domain, const Pairs& pairs) {
-  if (domain.families.broken.empty()) return;
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    if (due_[k] == never && !domain.families.broken[pairs.owned[k]].empty()) due_[k] = 0;
+void Surfaces::expose_broken(const Domain& domain, const Pairs& pairs) {
+  for (std::size_t k = 0; k < pairs.owned.size() && !broken_.empty(); ++k) {
+    if (due_[k] != never || domain.families.broken[pairs.owned[k]].empty()) continue;
+    due_[k] = 0;
+    BrokenPoint& point = broken_[places_[k]];
+    if (point.is_exposed) continue;
+    point.is_exposed = true;
+    point.excess = std::max(0.0, feel(pairs, k).share - points_[places_[k]].threshold);
   }
 }
 
-Surfaces::Felt Surfaces::feel(const Pairs& pairs, std::size_t k) const {
+// Points whose bonds have broken since the last search see each other from now on: their overlap stays as it was.
+void Surfaces::see_through_breaks(const Domain& domain, const BrokenCounts& counts, const Pairs& pairs) {
+  const auto& broken = domain.families.broken;
+  if (!pairs.one_body || broken.empty()) return;
+  broken_.resize(points_.size());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    const int i = pairs.owned[k];
+    const SurfacePoint& fixed = points_[places_[k]];
+    BrokenPoint& point = broken_[places_[k]];
+    std::vector<std::int64_t> unseen;
+    for (const std::size_t count = counts.empty() ? broken[i].size() : counts[i]; point.counted < count;) {
+      unseen.push_back(domain.id(broken[i][point.counted++]));
+    }
+    if (unseen.empty()) continue;
+    const double before = feel(pairs, k, unseen).share - fixed.threshold - point.excess;
+    const double kept = fixed.is_at_surface || point.is_exposed ? std::max(0.0, before) : 0;
+    point.excess = std::max(point.excess, feel(pairs, k).share - fixed.threshold - kept);
+  }
+}
+
+// `unseen`: ids of points that are left out.
+Surfaces::Felt Surfaces::feel(const Pairs& pairs, std::size_t k, std::span<const std::int64_t> unseen) const {
   Felt felt;
   over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+    if (!unseen.empty() && std::find(unseen.begin(), unseen.end(), pairs.ids[partner]) != unseen.end()) return;
     const Smoothing around(reach);
     const double volume = pairs.sites[partner].volume(), slope = volume * around.slope_over_distance(distance2);
     felt.share += volume * around.value(distance2);
@@ -137,10 +164,10 @@ Surfaces::Felt Surfaces::feel(const Pairs& pairs, std::size_t k) const {
 }
 
 // `overlap`: on entry that of the last forces, on return the present one; 0 if the point does not touch.
-Surfaces::Facing Surfaces::facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double mass,
-                                  double& overlap) const {
+Surfaces::Facing Surfaces::facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double threshold,
+                                  double mass, double& overlap) const {
   Facing facing{.reach = point.reach};
-  const double before = overlap, now = (felt.share - point.threshold) / point.slope;
+  const double before = overlap, now = (felt.share - threshold) / point.slope;
   overlap = std::max(0.0, now);
   if (!(now >= 0) || felt.share == 0) return facing;
   const double by_share = point.area / (point.slope * point.slope);
@@ -177,18 +204,24 @@ void Surfaces::note_touching() {
 }
 
 // Evaluates each point: energy and deepest overlap. A point that does not touch is evaluated again when the motion
-// since then may have closed its gap.
-ForceResult Surfaces::feel_all(const SurfaceLaw& law, const Pairs& pairs) {
+// since then may have closed its gap, and one with an excess in each step.
+ForceResult Surfaces::feel_all(const SurfaceLaw& law, bool is_trial, const Pairs& pairs) {
   advance_travel(pairs);
   ForceResult result;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     if (travel_ < due_[k]) continue;
     const SurfacePoint& point = points_[places_[k]];
     const Felt felt = feel(pairs, k);
-    due_[k] = travel_ + (point.threshold - felt.share) * smallest_reach_[k] / steepest_share;
+    const bool has_excess = excess_of(k) > 0;
+    if (has_excess && !is_trial) {
+      double& excess = broken_[places_[k]].excess;
+      excess = std::clamp(felt.share - point.threshold, 0.0, excess);
+    }
+    const double threshold = point.threshold + excess_of(k);
+    due_[k] = has_excess ? 0 : travel_ + (threshold - felt.share) * smallest_reach_[k] / steepest_share;
     double& overlap = overlaps_[places_[k]];
     gradient_[k] = felt.gradient;
-    facing_[k] = facing(law, point, felt, pairs.masses[k], overlap);
+    facing_[k] = facing(law, point, felt, threshold, pairs.masses[k], overlap);
     result.energy += point.area * law.energy(overlap);
     result.deepest.take({overlap / point.spacing, pairs.owned[k], true});
   }
@@ -197,11 +230,11 @@ ForceResult Surfaces::feel_all(const SurfaceLaw& law, const Pairs& pairs) {
 
 // The Hessian Σ κ ∇ρ ⊗ ∇ρ of all touching points, with M^(−1/2) on both sides, is bounded by a tensor for each point:
 // (Σ_m g_m·x_m)² ≤ S Σ_m (√m_m/|g_m|) (g_m·x_m)² with S = Σ_m |g_m|/√m_m (Cauchy and Schwarz).
-ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
-                                        std::vector<Vector>& force_density) {
+ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, bool is_trial,
+                                        Pairs& pairs, std::vector<Vector>& force_density) {
   bring_to_present(kinematics, pairs);
-  take_broken(kinematics.domain, pairs);
-  ForceResult result = feel_all(law, pairs);
+  expose_broken(kinematics.domain, pairs);
+  ForceResult result = feel_all(law, is_trial, pairs);
   exchange_records(pairs, facing_);
   note_touching();
   if (!any_touches_) return result;
@@ -250,6 +283,11 @@ void Surfaces::serialize(Archive& archive, const std::string& name, const Domain
   archive.field("slip", 3, [this](std::size_t k, int c) -> double& { return slips_before_[k][c]; });
   archive.field("friction", 3, [this](std::size_t k, int c) -> double& { return friction_before_[k][c]; });
   if (archive.loading()) slips_ = slips_before_;
+  if (!blocks.one_body || domain.families.broken.empty()) return;
+  broken_.resize(points_.size());
+  archive.field("excess", 1, [this](std::size_t k, int) -> double& { return broken_[k].excess; });
+  archive.field("is_exposed", 1, [this](std::size_t k, int) -> bool& { return broken_[k].is_exposed; });
+  archive.field("counted", 1, [this](std::size_t k, int) -> std::size_t& { return broken_[k].counted; });
 }
 
 }  // namespace strut::contact

@@ -35,6 +35,14 @@ struct SurfacePoint {
   bool is_at_surface = false;
 };
 
+// A point of a body whose bonds have broken. What it sees at once when they break gives no pressure, since that would
+// be energy out of nothing; `excess` falls as these points move apart.
+struct BrokenPoint {
+  double excess = 0;        // added to the threshold
+  bool is_exposed = false;  // it is at a surface
+  std::size_t counted = 0;  // its broken bonds at the last search
+};
+
 // Motion of the points: `of` are velocities (m/s) or displacement increments (m), to be multiplied by `times`. A trial
 // starts from the last commit; else steps follow each other.
 struct Sliding {
@@ -49,11 +57,12 @@ class Surfaces {
   // each other thereby: the overlap is added to the threshold.
   Surfaces(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law);
 
-  // Call it after a search.
-  void take(const BlockPair& blocks, Pairs& pairs);
+  // Call it after a search with these counts.
+  void take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& counts, Pairs& pairs);
 
-  // As in forces.hpp for pairs of points. `penetration`: the overlap in spacings of the point.
-  ForceResult add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
+  // As in forces.hpp for pairs of points. `penetration`: the overlap in spacings of the point. `is_trial`: of an
+  // equilibrium, to which the points may not go.
+  ForceResult add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, bool is_trial, Pairs& pairs,
                                 std::vector<Vector>& force_density);
   void for_each_normal_force(const Pairs& pairs, const std::function<void(std::size_t, Vector)>& visit) const;
   // Collective except in a trial. `friction`: on pairs.owned, N, without that of `couples`, which has pairs.owned.
@@ -107,15 +116,19 @@ class Surfaces {
   Vector between_surfaces(std::size_t k) const;
   void set_smallest_reaches(const Pairs& pairs);
   void set_volumes(Pairs& pairs) const;
-  void take_broken(const Domain& domain, const Pairs& pairs);
+  double excess_of(std::size_t k) const { return broken_.empty() ? 0 : broken_[places_[k]].excess; }
+  void expose_broken(const Domain& domain, const Pairs& pairs);
+  void see_through_breaks(const Domain& domain, const BrokenCounts& counts, const Pairs& pairs);
   void note_touching();
   void advance_travel(const Pairs& pairs);
-  Felt feel(const Pairs& pairs, std::size_t k) const;
-  Facing facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double mass, double& overlap) const;
-  ForceResult feel_all(const SurfaceLaw& law, const Pairs& pairs);
+  Felt feel(const Pairs& pairs, std::size_t k, std::span<const std::int64_t> unseen = {}) const;
+  Facing facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double threshold, double mass,
+                double& overlap) const;
+  ForceResult feel_all(const SurfaceLaw& law, bool is_trial, const Pairs& pairs);
   void subtract_start(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law);
 
   std::vector<SurfacePoint> points_;          // of blocks.points
+  std::vector<BrokenPoint> broken_;           // of blocks.points; empty while no bond may break
   std::vector<double> volumes_;               // of blocks.points: V of ρ, m³ (own_surface.hpp)
   std::vector<double> overlaps_;              // of blocks.points, as of the last forces, m
   std::vector<Vector> slips_, slips_before_;  // of blocks.points: stretch of the friction springs; a step before, m

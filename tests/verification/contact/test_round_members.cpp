@@ -148,9 +148,9 @@ class Scene {
     const Kinematics kinematics{domain_, at_rest_, densities_};
     SkinDistances none{std::vector<float>(blocks_.points.size(), 0), 0};
     Pairs pairs = find_pairs(kinematics, blocks_, law_.radius, none);
-    surfaces_->take(blocks_, pairs);
+    surfaces_->take(domain_, blocks_, {}, pairs);
     std::vector<Vector> density(domain_.owned, Vector::Zero());
-    Balance balance{.energy = surfaces_->add_normal_forces(kinematics, law_, pairs, density).energy};
+    Balance balance{.energy = surfaces_->add_normal_forces(kinematics, law_, false, pairs, density).energy};
     for (int i = 0; i < domain_.owned; ++i) {
       const Vector force = domain_.volume(i) * density[i];
       (domain_.cloud.blocks[i] == 0 ? balance.first : balance.second) += force;
