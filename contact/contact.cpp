@@ -1,6 +1,7 @@
 #include "contact/contact.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/timing.hpp"
 #include "contact/largest_eigenvalue.hpp"
@@ -51,6 +52,15 @@ Contact::Contact(const std::vector<Interaction>& interactions, const Domain& dom
   }
 }
 
+// Numbers of broken bonds of blocks.points when ranks last agreed; empty between bodies, or if no bonds may break.
+BrokenCounts Contact::broken_of(const Domain& domain, const BlockPair& blocks) const {
+  BrokenCounts counts;
+  const auto& broken = domain.families.broken;
+  if (!blocks.one_body || broken.empty()) return counts;
+  for (const int i : blocks.points) counts.push_back(broken_before_.empty() ? broken[i].size() : broken_before_[i]);
+  return counts;
+}
+
 void Contact::search(const Kinematics& kinematics, double dt, ContactPair& contact_pair) {
   const BlockPair& blocks = contact_pair.blocks;
   contact_pair.places.clear();
@@ -58,17 +68,13 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   contact_pair.skins = skin_distances_by_speed(kinematics, blocks, contact_pair.mean_velocity, contact_pair.skin, dt);
   contact_pair.pairs =
       find_pairs(kinematics, blocks, radius_of(contact_pair.model.law), contact_pair.skins, broken_before_);
-  if (contact_pair.surfaces) contact_pair.surfaces->take(kinematics.domain, blocks, broken_before_, contact_pair.pairs);
   if (contact_pair.model.friction > 0) contact_pair.couples.take(kinematics.domain, contact_pair.pairs.owned);
   contact_pair.frame = frame_of(kinematics, blocks, contact_pair.pairs);
   contact_pair.searched = true;
   contact_pair.meets = false;
-  contact_pair.broken_counts.clear();
-  if (blocks.one_body && !kinematics.domain.families.broken.empty()) {
-    const auto& broken = kinematics.domain.families.broken;
-    for (const int i : blocks.points) {
-      contact_pair.broken_counts.push_back(broken_before_.empty() ? broken[i].size() : broken_before_[i]);
-    }
+  const BrokenCounts before = std::exchange(contact_pair.broken_counts, broken_of(kinematics.domain, blocks));
+  if (contact_pair.surfaces) {
+    contact_pair.surfaces->take(kinematics.domain, blocks, contact_pair.broken_counts, before, contact_pair.pairs);
   }
   contact_pair.used = 0;
   contact_pair.result = {};
@@ -291,9 +297,12 @@ void Contact::append_to_agree(const Kinematics& kinematics, std::vector<double>&
     numbers.push_back(largest_use(kinematics, contact_pair.blocks, contact_pair.mean_velocity, contact_pair.skins));
   }
   numbers.push_back(deepest().penetration);
-  const auto& broken = kinematics.domain.families.broken;
-  broken_before_.resize(broken.size());
-  for (std::size_t i = 0; i < broken.size(); ++i) broken_before_[i] = broken[i].size();
+  count_broken(kinematics.domain);
+}
+
+void Contact::count_broken(const Domain& domain) {
+  broken_before_.clear();
+  for (const auto& of_point : domain.families.broken) broken_before_.push_back(of_point.size());
 }
 
 void Contact::take_agreed(std::span<const double> numbers, double dt) {
@@ -321,20 +330,45 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
   archive.number("searches", searches_);
   for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
     ContactPair& pair = contact_pairs_[m];
+    const std::string name = "contact_" + std::to_string(m);
     const bool may_break = pair.blocks.one_body && !kinematics.domain.families.broken.empty();
+    if (may_break) serialize_counts(archive, name + "_breaks", kinematics.domain, pair);
     if (!pair.surfaces || (pair.model.friction == 0 && !may_break)) continue;
-    pair.surfaces->serialize(archive, "contact_" + std::to_string(m), kinematics.domain, pair.blocks);
+    pair.surfaces->serialize(archive, name, kinematics.domain, pair.blocks);
   }
-  if (!archive.loading()) return;
-  std::vector<Vector> forces(kinematics.domain.owned,
-                             Vector::Zero());  // the solver has the forces; this restores pairs and friction
-  for (ContactPair& contact_pair : contact_pairs_) contact_pair.searched = false, contact_pair.check_due = true;
+  if (archive.loading()) restore(kinematics, dt);
+}
+
+// Bonds that have broken since the last search count in the next one only.
+void Contact::serialize_counts(Archive& archive, const std::string& name, const Domain& domain, ContactPair& pair) {
+  std::vector<std::int64_t> ids;
+  for (const int i : pair.blocks.points) ids.push_back(domain.id(i));
+  pair.broken_counts.resize(ids.size(), 0);
+  archive.points(name, ids);
+  archive.field("broken_at_search", 1, [&pair](std::size_t k, int) -> std::size_t& { return pair.broken_counts[k]; });
+}
+
+// Restores pairs and friction; the solver has the forces.
+void Contact::restore(const Kinematics& kinematics, double dt) {
+  const Domain& domain = kinematics.domain;
+  count_broken(domain);
+  for (ContactPair& pair : contact_pairs_) {
+    for (std::size_t k = 0; k < pair.broken_counts.size(); ++k) {
+      broken_before_[pair.blocks.points[k]] = pair.broken_counts[k];
+    }
+    pair.searched = false;
+    check(kinematics, dt, pair);
+  }
+  find_points_of_several();
+  count_broken(domain);
+  std::vector<Vector> forces(domain.owned, Vector::Zero());
   add_forces(kinematics, dt, forces);
-  for (ContactPair& contact_pair : contact_pairs_) {
-    contact_pair.check_due = true;  // the use of the skin distances in the next step is unknown
+  for (ContactPair& pair : contact_pairs_) {
+    pair.meets = domain.communicator.max(breaks_meet(kinematics, pair) ? 1.0 : 0.0) > 0;
+    pair.check_due = true;  // the use of the skin distances in the next step is unknown
     // An equilibrium has no time step from which to recompute friction: it is that of the last commit.
-    const bool rubs = contact_pair.surfaces && contact_pair.model.friction > 0;
-    if (rubs && dt == 0) contact_pair.friction = contact_pair.surfaces->committed_friction();
+    const bool rubs = pair.surfaces && pair.model.friction > 0;
+    if (rubs && dt == 0) pair.friction = pair.surfaces->committed_friction();
   }
 }
 

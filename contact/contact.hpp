@@ -109,7 +109,7 @@ class Contact {
     Pairs pairs = {};
     Couples couples = {};  // of friction
     bool searched = false;
-    std::vector<std::size_t> broken_counts = {};  // numbers of broken bonds of blocks.points
+    BrokenCounts broken_counts = {};  // numbers of broken bonds of blocks.points at the last search
     // As of the last check of the skin distances.
     Vector mean_velocity = Vector::Zero();  // m/s
     double used = 0;     // a bound of the fraction of its skin distance that any point has used since the last search
@@ -127,6 +127,10 @@ class Contact {
   static void visit_normal_forces(const ContactPair& contact_pair,
                                   const std::function<void(std::size_t, Vector)>& visit);
   void search(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
+  void count_broken(const Domain& domain);
+  BrokenCounts broken_of(const Domain& domain, const BlockPair& blocks) const;
+  static void serialize_counts(Archive& archive, const std::string& name, const Domain& domain, ContactPair& pair);
+  void restore(const Kinematics& kinematics, double dt);
   static bool breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair);
   void check(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   // Collective.

@@ -66,14 +66,15 @@ void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, con
   const std::vector<double> densities(domain.owned, 1);
   SkinDistances none{std::vector<float>(blocks.points.size(), 0), 0};
   Pairs pairs = find_pairs({domain, at_rest, densities}, blocks, law.radius, none);
-  take(domain, blocks, {}, pairs);
+  take(domain, blocks, {}, {}, pairs);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     double& threshold = points_[places_[k]].threshold;
     threshold = std::max(threshold, feel(pairs, k).share);
   }
 }
 
-void Surfaces::take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& counts, Pairs& pairs) {
+void Surfaces::take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& now, const BrokenCounts& before,
+                    Pairs& pairs) {
   places_.clear();
   due_.clear();
   std::vector<Vector> slips(blocks.points.size(), Vector::Zero());
@@ -94,7 +95,7 @@ void Surfaces::take(const Domain& domain, const BlockPair& blocks, const BrokenC
   seen_.clear();
   set_smallest_reaches(pairs);
   set_volumes(pairs);
-  see_through_breaks(domain, counts, pairs);
+  see_through_breaks(domain, now, before, pairs);
 }
 
 // Sets the volumes that ρ sums.
@@ -130,22 +131,24 @@ void Surfaces::expose_broken(const Domain& domain, const Pairs& pairs) {
 }
 
 // Points whose bonds have broken since the last search see each other from now on: their overlap stays as it was.
-void Surfaces::see_through_breaks(const Domain& domain, const BrokenCounts& counts, const Pairs& pairs) {
-  const auto& broken = domain.families.broken;
-  if (!pairs.one_body || broken.empty()) return;
+void Surfaces::see_through_breaks(const Domain& domain, const BrokenCounts& now, const BrokenCounts& before,
+                                  const Pairs& pairs) {
+  if (now.empty()) return;
   broken_.resize(points_.size());
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    const int i = pairs.owned[k];
-    const SurfacePoint& fixed = points_[places_[k]];
-    BrokenPoint& point = broken_[places_[k]];
+  std::vector<char> has_partners(points_.size(), false);
+  for (const int at : places_) has_partners[at] = true;
+  for (std::size_t at = 0; at < points_.size(); ++at) broken_[at].excess *= has_partners[at];
+  for (std::size_t k = 0; k < pairs.owned.size() && !before.empty(); ++k) {
+    const int i = pairs.owned[k], at = places_[k];
     std::vector<std::int64_t> unseen;
-    for (const std::size_t count = counts.empty() ? broken[i].size() : counts[i]; point.counted < count;) {
-      unseen.push_back(domain.id(broken[i][point.counted++]));
-    }
+    for (std::size_t n = before[at]; n < now[at]; ++n) unseen.push_back(domain.id(domain.families.broken[i][n]));
     if (unseen.empty()) continue;
-    const double before = feel(pairs, k, unseen).share - fixed.threshold - point.excess;
-    const double kept = fixed.is_at_surface || point.is_exposed ? std::max(0.0, before) : 0;
-    point.excess = std::max(point.excess, feel(pairs, k).share - fixed.threshold - kept);
+    const double without = feel(pairs, k, unseen).share, with = feel(pairs, k).share;
+    if (!(with > without)) continue;
+    BrokenPoint& point = broken_[at];
+    const double threshold = points_[at].threshold, overlap = without - threshold - point.excess;
+    const bool pressed = (points_[at].is_at_surface || point.is_exposed) && overlap > 0;
+    point.excess = std::max(point.excess, with - threshold - (pressed ? overlap : 0));
   }
 }
 
@@ -287,7 +290,6 @@ void Surfaces::serialize(Archive& archive, const std::string& name, const Domain
   broken_.resize(points_.size());
   archive.field("excess", 1, [this](std::size_t k, int) -> double& { return broken_[k].excess; });
   archive.field("is_exposed", 1, [this](std::size_t k, int) -> bool& { return broken_[k].is_exposed; });
-  archive.field("counted", 1, [this](std::size_t k, int) -> std::size_t& { return broken_[k].counted; });
 }
 
 }  // namespace strut::contact

@@ -40,7 +40,6 @@ struct SurfacePoint {
 struct BrokenPoint {
   double excess = 0;        // added to the threshold
   bool is_exposed = false;  // it is at a surface
-  std::size_t counted = 0;  // its broken bonds at the last search
 };
 
 // Motion of the points: `of` are velocities (m/s) or displacement increments (m), to be multiplied by `times`. A trial
@@ -57,8 +56,10 @@ class Surfaces {
   // each other thereby: the overlap is added to the threshold.
   Surfaces(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law);
 
-  // Call it after a search with these counts.
-  void take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& counts, Pairs& pairs);
+  // Call it after a search. The numbers of broken bonds of blocks.points that this search and the one before it know;
+  // empty if no bonds may break.
+  void take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& now, const BrokenCounts& before,
+            Pairs& pairs);
 
   // As in forces.hpp for pairs of points. `penetration`: the overlap in spacings of the point. `is_trial`: of an
   // equilibrium, to which the points may not go.
@@ -118,7 +119,8 @@ class Surfaces {
   void set_volumes(Pairs& pairs) const;
   double excess_of(std::size_t k) const { return broken_.empty() ? 0 : broken_[places_[k]].excess; }
   void expose_broken(const Domain& domain, const Pairs& pairs);
-  void see_through_breaks(const Domain& domain, const BrokenCounts& counts, const Pairs& pairs);
+  void see_through_breaks(const Domain& domain, const BrokenCounts& now, const BrokenCounts& before,
+                          const Pairs& pairs);
   void note_touching();
   void advance_travel(const Pairs& pairs);
   Felt feel(const Pairs& pairs, std::size_t k, std::span<const std::int64_t> unseen = {}) const;

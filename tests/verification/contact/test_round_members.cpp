@@ -148,7 +148,7 @@ class Scene {
     const Kinematics kinematics{domain_, at_rest_, densities_};
     SkinDistances none{std::vector<float>(blocks_.points.size(), 0), 0};
     Pairs pairs = find_pairs(kinematics, blocks_, law_.radius, none);
-    surfaces_->take(domain_, blocks_, {}, pairs);
+    surfaces_->take(domain_, blocks_, {}, {}, pairs);
     std::vector<Vector> density(domain_.owned, Vector::Zero());
     Balance balance{.energy = surfaces_->add_normal_forces(kinematics, law_, false, pairs, density).energy};
     for (int i = 0; i < domain_.owned; ++i) {

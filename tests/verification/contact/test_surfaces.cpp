@@ -91,7 +91,7 @@ class Scene {
     const Kinematics kinematics{domain_, velocities_, densities_};
     SkinDistances none{std::vector<float>(blocks_.points.size(), 0), 0};
     pairs_ = find_pairs(kinematics, blocks_, law_.radius, none);
-    surfaces_->take(domain_, blocks_, {}, pairs_);
+    surfaces_->take(domain_, blocks_, {}, {}, pairs_);
     density_.assign(domain_.owned, Vector::Zero());
     ForceResult result = surfaces_->add_normal_forces(kinematics, law_, false, pairs_, density_);
     result.energy = world_.sum(result.energy);
