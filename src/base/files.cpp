@@ -151,9 +151,12 @@ std::string obstacle(const fs::path& file, FileKind kind) {
     return name + " is a folder, a pipe or a device; expected a file that may be replaced";
   if (const std::string why = refusal_of_system(file); !why.empty()) return name + ": cannot create it: " + why;
   if (!regular || is_of_kind(file, kind)) return "";
-  const bool hdf5 = head_of(file).starts_with("\x89HDF");
-  return name + " is there" + (hdf5 ? ", in the format netCDF-4 (was it converted?)," : "") + " and is no " +
-         known(kind).name + ", which would replace it; expected another name, or that it is removed";
+  const std::string head = head_of(file);
+  const std::string what = head.starts_with("\x89HDF")  ? ", in the format netCDF-4 (was it converted?),"
+                           : head.starts_with(log_mark) ? ", a log of strut (this run's --log?),"
+                                                        : "";
+  return name + " is there" + what + " and is no " + known(kind).name +
+         ", which would replace it; expected another name, or that it is removed";
 }
 
 fs::path before_of(const fs::path& checkpoint) { return checkpoint.string() + ".old"; }

@@ -104,6 +104,25 @@ std::string balance_of(const Ledger& ledger, const Body& body) {
   return text.str();
 }
 
+// Collective. The first point without a number as its force, velocity or place, on one rank; nothing where all have
+// one.
+std::string without_a_number(const Body& body) {
+  int point = -1;
+  for (int i = body.owned(); i-- > 0;) {
+    const bool is_right =
+        body.current(i).allFinite() && body.velocity[i].allFinite() && body.force_density[i].allFinite();
+    if (!is_right) point = i;
+  }
+  std::string text;
+  if (point >= 0) {
+    text = "the force, velocity or place of a point is not a number: " + locate(body, point) +
+           ". Likely causes: a tool or a condition that has put several points in one place (bonds between them have "
+           "no direction), a load or a speed far too large";
+  }
+  const double turn = point < 0 ? 0 : 1.0 / (1 + body.domain.communicator.rank());
+  return of_largest(body, turn, text);
+}
+
 }  // namespace
 
 void Monitor::tell_once(What what, const std::string& text) {
@@ -257,6 +276,10 @@ void Monitor::check_energy(const Ledger& ledger, bool last) {
   next_energy_ = ledger.time + pause_;
   if (++ledgers_ <= first_ledgers && !last && std::isfinite(error)) return;
   const double limit = (ledger.gained > 0 ? of_gains : 1) * limits_.balance_error;
+  if (!std::isfinite(error)) {
+    const std::string point = without_a_number(body_);
+    raise_together(body_.domain.communicator, point.empty() ? "" : at(ledger.time) + point);
+  }
   const bool is_told = !(error <= std::min(limit, worth_telling));
   const std::string text = is_told ? at(ledger.time) + balance_of(ledger, body_) : "";
   if (!(error <= limit)) {

@@ -302,6 +302,20 @@ TEST(Monitor, ToolBetweenPointsThatAreBondedIsToldOf) {
   EXPECT_FALSE(press("2.2e-3", "3.8e-3"));
 }
 
+// A box around a bar pushes several of its points to one place, where the bonds of an ordinary solid have no direction:
+// the energies are no numbers any more before a strain is none.
+TEST(Monitor, ForcesThatAreNoNumbersNameThePoint) {
+  const RunFolder folder;
+  Parts parts;
+  parts.materials = section("copper", key("Material Model", "Elastic") + key("Density", "8930") +
+                                          key("Young's Modulus", "117e9") + key("Poisson's Ratio", "0.35"));
+  parts.conditions = section("box", key("Type", "Rigid Box") + key("Lower Corner", "-1 -1 -1") +
+                                        key("Upper Corner", "1 1 1") + key("Travel Z", "0"));
+  const Outcome o = outcome(folder, parts);
+  expect_words(o.error, {"at t = ", "element ", "reference position", "is not a number", "in one place"});
+  EXPECT_EQ(o.error.find("balance"), std::string::npos) << o.error;
+}
+
 // Points that meet the middles of the squares of a face, with a radius below the distance to their corners, 0.707 of a
 // spacing: no two of them touch.
 TEST(Monitor, BodiesThatPassThroughEachOtherAreSeenWhateverTheRadius) {

@@ -92,6 +92,8 @@ TEST_F(Files, AFileIsReplacedByOneOfItsKindOnly) {
     EXPECT_EQ(obstacle(file, FileKind::unchecked), "");
   }
   EXPECT_NE(obstacle(write("file", "\x89HDF\r\n"), FileKind::result).find("netCDF-4"), std::string::npos);
+  EXPECT_NE(obstacle(write("file", log_mark), FileKind::history).find("a log of strut (this run's --log?)"),
+            std::string::npos);
   EXPECT_NE(obstacle(folder / ".", FileKind::log).find("is a folder"), std::string::npos);
   EXPECT_NE(obstacle(folder / "no/file", FileKind::log).find("there is no folder"), std::string::npos);
   EXPECT_EQ(obstacle("/dev/null", FileKind::log), "") << "loses nothing";
