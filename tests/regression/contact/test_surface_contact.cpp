@@ -206,7 +206,7 @@ Parts crushed() {
 }
 
 // Points that fail lie nearer to each other than points that touch. A contact that pressed as soon as their bonds break
-// would make energy: 1.2 % of the work, whatever the time step.
+// would make energy: 0.4 % of the work here.
 TEST(SurfaceContact, PointsThatFailUnderPressureAreNotThrown) {
   const RunFolder folder(Lattice{.nx = 4, .ny = 4, .nz = 8});
   Simulation run(folder, crushed());
