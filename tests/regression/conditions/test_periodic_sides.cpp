@@ -6,6 +6,7 @@
 #include <map>
 
 #include "regression/bodies.hpp"
+#include "regression/checkpoints.hpp"
 #include "run/simulation.hpp"
 
 namespace strut::regression {
@@ -374,26 +375,7 @@ TEST(PeriodicSides, ThatMoveBreakBondsAfterACheckpointAsWithoutOne) {
   parts.damage = section("apart", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.002"));
   parts.conditions = sides("x", "0", "6e-3", "1 + 1e3*t") + along("v", "Initial Velocity", "all", "z", "4e3*z");
   const RunFolder folder(Lattice{.nx = cells, .ny = 3, .nz = 5});
-  Simulation whole(folder, parts);
-  std::vector<Snapshot> kept;
-  std::vector<double> released;
-  while (whole.solver.time() < whole.deck.solver.final_time) {
-    Archive saved = Archive::saving_to(kept.emplace_back());
-    whole.solver.serialize(saved);
-    whole.solver.advance_velocity(whole.deck.solver.final_time);
-    released.push_back(whole.solver.ledger().fracture);
-    whole.solver.advance_position(true);
-  }
-  EXPECT_GT(released.back(), 0);
-  for (std::size_t n = 0; n + 1 < kept.size(); ++n) {
-    Simulation other(folder, parts);
-    Archive restored = Archive::loading_from(kept[n]);
-    other.solver.serialize(restored);
-    other.solver.advance_velocity(other.deck.solver.final_time);
-    other.solver.advance_position(true);
-    other.solver.advance_velocity(other.deck.solver.final_time);
-    EXPECT_EQ(other.solver.ledger().fracture, released[n + 1]) << n;
-  }
+  EXPECT_GT(expect_same_after_checkpoints(folder, parts, &Ledger::fracture).back(), 0);
 }
 
 // ---- Refusals ------------------------------------------------------------------------------------------------------

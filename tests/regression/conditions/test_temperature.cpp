@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "regression/bodies.hpp"
+#include "regression/checkpoints.hpp"
 #include "regression/stiff_ended_bar.hpp"
 #include "run/simulation.hpp"
 
@@ -329,26 +330,7 @@ TEST(WarmedSolid, BreaksBondsAfterACheckpointAsWithoutOne) {
   parts.damage = section("apart", key("Damage Model", "Bond Energy") + key("Fracture Energy", "300"));
   parts.conditions = warmed("all", "293 + 2e8*t*(1 + 200*x)") + along("v", "Initial Velocity", "all", "z", "8e3*z");
   const RunFolder folder({.nx = 4, .ny = 3, .nz = 6});
-  Simulation whole(folder, parts);
-  std::vector<Snapshot> kept;
-  std::vector<double> released;
-  while (whole.solver.time() < whole.deck.solver.final_time) {
-    Archive saved = Archive::saving_to(kept.emplace_back());
-    whole.solver.serialize(saved);
-    whole.solver.advance_velocity(whole.deck.solver.final_time);
-    released.push_back(whole.solver.ledger().fracture);
-    whole.solver.advance_position(true);
-  }
-  EXPECT_GT(released.back(), 0);
-  for (std::size_t n = 0; n + 1 < kept.size(); ++n) {
-    Simulation other(folder, parts);
-    Archive restored = Archive::loading_from(kept[n]);
-    other.solver.serialize(restored);
-    other.solver.advance_velocity(other.deck.solver.final_time);
-    other.solver.advance_position(true);
-    other.solver.advance_velocity(other.deck.solver.final_time);
-    EXPECT_EQ(other.solver.ledger().fracture, released[n + 1]) << n;
-  }
+  EXPECT_GT(expect_same_after_checkpoints(folder, parts, &Ledger::fracture).back(), 0);
 }
 
 deck::Problems problems_of(const std::string& text) {

@@ -6,6 +6,7 @@
 
 #include "mesh/cells.hpp"
 #include "regression/bodies.hpp"
+#include "regression/checkpoints.hpp"
 
 namespace strut::regression {
 namespace {
@@ -220,31 +221,8 @@ TEST(SurfaceContact, PointsThatFailUnderPressureAreNotThrown) {
 // After a checkpoint the contact counts the bonds that the last search has counted, and no others: the same bits.
 TEST(SurfaceContact, PointsThatFailGoOnAfterACheckpoint) {
   const RunFolder folder(Lattice{.nx = 4, .ny = 4, .nz = 8});
-  Simulation whole(folder, crushed());
-  const double end = whole.deck.solver.final_time;
-  std::vector<Snapshot> kept;
-  std::vector<double> works;
-  for (int n = 0; whole.solver.time() < end; ++n) {
-    if (n % 50 == 0) {
-      Archive saved = Archive::saving_to(kept.emplace_back());
-      whole.solver.serialize(saved);
-    }
-    whole.solver.advance_velocity(end);
-    if (n % 50 == 20) works.push_back(whole.solver.ledger().contact);
-    whole.solver.advance_position(true);
-  }
-  ASSERT_GT(works.size(), 30u);
-  for (std::size_t m = works.size() / 2; m < works.size(); m += 3) {  // points fail in the second half
-    Simulation other(folder, crushed());
-    Archive restored = Archive::loading_from(kept[m]);
-    other.solver.serialize(restored);
-    for (int n = 0; n < 20; ++n) {
-      other.solver.advance_velocity(end);
-      other.solver.advance_position(true);
-    }
-    other.solver.advance_velocity(end);
-    EXPECT_EQ(other.solver.ledger().contact, works[m]) << m;
-  }
+  const auto works = expect_same_after_checkpoints(folder, crushed(), &Ledger::contact, 50, 20);
+  EXPECT_GT(works.size(), 30 * 50u);
 }
 
 // Voxels of a sixth of a spacing gathered in cells of one, around the middle.
