@@ -31,7 +31,7 @@ namespace strut::deck {
 
 struct Deck {
   std::filesystem::path file;
-  std::string text;  // as it was read
+  std::string text;  // as it was read, with the numbers of tables in files
   Discretization discretization;
   std::vector<NodeSet> node_sets;
   std::vector<Material> materials;
