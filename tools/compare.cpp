@@ -2,7 +2,6 @@
 // Exit status: 0 equal within the tolerance, 1 different, 2 they cannot be compared.
 //   strut-compare one-rank.e four-ranks.e --relative 1e-12
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/numbers.hpp"
 #include "compare/series.hpp"
 
 namespace {
@@ -191,12 +191,9 @@ struct Request {
 };
 
 double tolerance_of(const std::string& option, const std::string& word) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !(value >= 0)) {
-    throw strut::Error(option + " is '" + word + "', expected a number from 0");
-  }
-  return value;
+  const auto number = strut::to_real(word);
+  if (!number || !(*number >= 0)) throw strut::Error(option + " is '" + word + "', expected a number from 0");
+  return *number;
 }
 
 Request request_of(const std::vector<std::string>& words) {

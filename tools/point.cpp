@@ -5,8 +5,6 @@
 // A path is linear between its rows; --steps divides each interval (default 1; for a uniaxial path 1000).
 // Stress is the unrotated Cauchy stress, strain is logarithmic; components xx yy zz xy yz zx, shear as tensor
 // components. Exit status: 0, or 1 with one error message if the request is wrong or the law does not converge.
-#include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +16,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/numbers.hpp"
 #include "base/parallel/communicator.hpp"
 #include "deck/deck.hpp"
 #include "point/path.hpp"
@@ -44,12 +43,9 @@ const char* const usage =
 constexpr int uniaxial_steps = 1000;
 
 double number_of(const std::string& option, const std::string& word) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
-    throw Error(option + ": '" + word + "' is not a number");
-  }
-  return value;
+  const auto number = to_finite(word);
+  if (!number) throw Error(option + ": '" + word + "' is not a number");
+  return *number;
 }
 
 // The words of a command line, consumed from the front.

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "base/errors.hpp"
+#include "base/numbers.hpp"
 #include "deck/convert.hpp"
-#include "deck/numbers.hpp"
 
 namespace strut::deck {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 
 namespace strut::deck {
 

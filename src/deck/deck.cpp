@@ -4,10 +4,10 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/numbers.hpp"
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
 #include "deck/check.hpp"
-#include "deck/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
 #include "deck/sections/inertia.hpp"
 #include "deck/sections/materials.hpp"

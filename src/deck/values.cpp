@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "deck/problems.hpp"
 
 namespace strut::deck {

@@ -4,7 +4,7 @@
 #include <Teuchos_XMLObject.hpp>
 #include <algorithm>
 
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 
 namespace strut::deck {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 
 namespace strut::deck {
 
@@ -19,7 +19,7 @@ namespace {
 
 template <class T>
 std::string text_of(const T& value) {
-  if constexpr (std::is_same_v<T, std::string>) return value;
+  if constexpr (std::is_same_v<T, std::string>) return std::string(trimmed(value));  // "> text" ends with a line break
   if constexpr (std::is_same_v<T, bool>) return value ? "true" : "false";
   if constexpr (std::is_same_v<T, int>) return std::to_string(value);
   if constexpr (std::is_same_v<T, double>) return to_text(value);

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "integrators/explicit/critical_time_step.hpp"
 #include "mechanics/frequency_bound.hpp"
 #include "mechanics/internal_force.hpp"
@@ -97,16 +97,16 @@ double scale_masses(const deck::Deck& deck, Body& body, std::string& report) {
   const double wanted = *deck.solver.scaled_dt;
   const double highest = highest_for(wanted / deck.solver.safety_factor, body);
   if (highest == 0) {
-    report += "mass scaling adds nothing: the step is " + deck::to_text(wanted) + " s or longer without\n";
+    report += "mass scaling adds nothing: the step is " + to_text(wanted) + " s or longer without\n";
     return 0;
   }
   const std::vector<Added> added = added_to(body);
   const double share = added.back().share(), most = deck.solver.most_added_mass;
-  raise_together(body.domain.communicator, share > most ? "Solver > Verlet > Mass Scaling dt: a step of " +
-                                                              deck::to_text(wanted) + " s takes " + percent(share) +
-                                                              " more mass; expected " + percent(most) +
-                                                              " at most (Most Added Mass): want a shorter step"
-                                                        : "");
+  raise_together(body.domain.communicator, share > most
+                                               ? "Solver > Verlet > Mass Scaling dt: a step of " + to_text(wanted) +
+                                                     " s takes " + percent(share) + " more mass; expected " +
+                                                     percent(most) + " at most (Most Added Mass): want a shorter step"
+                                               : "");
   report += report_of(body, added, wanted);
   return highest;
 }

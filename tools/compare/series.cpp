@@ -1,10 +1,10 @@
 #include "compare/series.hpp"
 
-#include <charconv>
 #include <fstream>
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
+#include "base/numbers.hpp"
 #include "io/exodus/exodus.hpp"
 
 namespace strut::compare {
@@ -22,10 +22,9 @@ std::vector<std::string> split(const std::string& line) {
 }
 
 double number(const std::string& word) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) throw Error("'" + word + "' is not a number");
-  return value;
+  const auto found = to_real(word);
+  if (!found) throw Error("'" + word + "' is not a number");
+  return *found;
 }
 
 void read_row(const std::string& line, std::vector<Variable>& columns) {

@@ -11,6 +11,7 @@
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
+#include "base/numbers.hpp"
 #include "mesh/lattices.hpp"
 
 namespace strut::mesh {
@@ -381,11 +382,7 @@ class Converter {
   }
 
   // Returns NaN if the word is no finite number.
-  static double number(const std::string& word) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return error == std::errc() && end == word.data() + word.size() && std::isfinite(value) ? value : NAN;
-  }
+  static double number(const std::string& word) { return to_finite(word).value_or(NAN); }
 
   Vector vector(const Entry& entry) {
     std::istringstream stream(entry.value);

@@ -14,12 +14,12 @@
 
 #include "base/build_facts.hpp"
 #include "base/errors.hpp"
+#include "base/numbers.hpp"
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
 #include "base/parallel/launch.hpp"
 #include "base/parallel/threads.hpp"
 #include "deck/deck.hpp"
-#include "deck/numbers.hpp"
 #include "deck/yaml.hpp"
 #include "mesh/arrays.hpp"
 #include "mesh/body.hpp"
@@ -55,16 +55,16 @@ Communicator world() {
 py::object value_of(const deck::Parameter& parameter) {
   const auto& [name, type, value] = parameter;
   if (type == "bool") {
-    if (const auto truth = deck::to_boolean(value)) return py::bool_(*truth);
+    if (const auto truth = to_boolean(value)) return py::bool_(*truth);
   }
   if (type == "int") {
-    if (const auto number = deck::to_integer(value)) return py::int_(*number);
+    if (const auto number = to_integer(value)) return py::int_(*number);
   }
   if (type == "double") {
-    if (const auto number = deck::to_real(value)) return py::float_(*number);
+    if (const auto number = to_real(value)) return py::float_(*number);
   }
   if (type == "Array(double)") {
-    if (const auto numbers = deck::to_reals(value)) return py::cast(*numbers);
+    if (const auto numbers = to_reals(value)) return py::cast(*numbers);
   }
   return py::str(value);
 }

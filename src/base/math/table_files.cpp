@@ -1,14 +1,13 @@
 #include "base/math/table_files.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <optional>
 #include <string_view>
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
+#include "base/numbers.hpp"
 
 namespace strut {
 
@@ -17,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* blanks = " \t\r\n";
-constexpr std::uintmax_t largest =
-    10'000'000;  // bytes: some 300,000 rows; checkpoints and messages between ranks hold them
+// Bytes, some 300,000 rows: checkpoints and messages between ranks hold them.
+constexpr std::uintmax_t largest = 10'000'000;
 
 struct Quoted {
   std::size_t begin, end;  // of the name, without its quotes
@@ -38,12 +37,6 @@ std::optional<Quoted> next_name(const std::string& text, std::size_t from) {
   return std::nullopt;
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
-}
-
 // Between commas or semicolons, else between blanks.
 std::vector<std::string_view> cells(std::string_view line) {
   const bool by_mark = line.find_first_of(",;") != std::string_view::npos;
@@ -55,19 +48,6 @@ std::vector<std::string_view> cells(std::string_view line) {
     if (!by_mark) line = trimmed(line);
   }
   return found;
-}
-
-std::optional<double> number_in(std::string_view cell) {
-  if (cell.starts_with('+')) cell.remove_prefix(1);
-  double number = 0;
-  const auto [rest, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-  const bool whole = failure == std::errc() && rest == cell.data() + cell.size();
-  return whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
-}
-
-std::string shortest(double number) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
 }
 
 }  // namespace
@@ -108,13 +88,13 @@ std::string numbers_in_table(const fs::path& file) {
     if (content.empty() || content[0] == '#') continue;
     const std::vector<std::string_view> words = cells(content);
     const std::string where = file.string() + ", line " + std::to_string(row) + ": ";
-    const auto place = number_in(words[0]), value = words.size() == 2 ? number_in(words[1]) : std::nullopt;
-    const bool is_header = !before && !has_header && std::none_of(words.begin(), words.end(), number_in);
+    const auto place = to_finite(words[0]), value = words.size() == 2 ? to_finite(words[1]) : std::nullopt;
+    const bool is_header = !before && !has_header && std::none_of(words.begin(), words.end(), to_finite);
     if (has_header |= is_header; is_header) continue;
     if (!place || !value) throw Error(where + "'" + std::string(content.substr(0, 60)) + "'" + expected);
     if (before && !(*place > *before))
-      throw Error(where + shortest(*place) + " after " + shortest(*before) + "; expected places that rise");
-    numbers += (before ? ", " : "") + shortest(*place) + ", " + shortest(*value);
+      throw Error(where + to_text(*place) + " after " + to_text(*before) + "; expected places that rise");
+    numbers += (before ? ", " : "") + to_text(*place) + ", " + to_text(*value);
     before = place;
   }
   if (!before) throw Error(file.string() + " has no row" + expected);

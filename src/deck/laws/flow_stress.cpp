@@ -1,9 +1,9 @@
 // Hardening curves and rate factors: the keys of each, and how it is made from them. A new one is one entry.
 #include "deck/laws/flow_stress.hpp"
 
+#include "base/numbers.hpp"
 #include "deck/laws/one_of.hpp"
 #include "deck/laws/tables.hpp"
-#include "deck/numbers.hpp"
 
 namespace strut::deck {
 

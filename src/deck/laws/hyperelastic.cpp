@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "base/numbers.hpp"
 #include "deck/laws/constants.hpp"
 #include "deck/laws/each_law.hpp"
-#include "deck/numbers.hpp"
 
 namespace strut::deck {
 

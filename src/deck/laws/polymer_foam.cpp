@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "deck/laws/constants.hpp"
 #include "deck/laws/each_law.hpp"
 #include "deck/laws/tables.hpp"
-#include "deck/numbers.hpp"
 
 namespace strut::deck {
 

@@ -1,6 +1,6 @@
 #include "deck/laws/tables.hpp"
 
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 
 namespace strut::deck {
 

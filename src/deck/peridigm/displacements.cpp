@@ -5,7 +5,7 @@
 
 #include "base/errors.hpp"
 #include "base/math/function.hpp"
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
 
 namespace strut::deck {

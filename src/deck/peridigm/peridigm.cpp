@@ -7,7 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/math/tensors.hpp"
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 
 namespace strut::deck {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/errors.hpp"
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
 
 namespace strut::deck {

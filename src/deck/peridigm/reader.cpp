@@ -3,7 +3,7 @@
 #include <functional>
 #include <set>
 
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
 
 namespace strut::deck {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
 
 namespace strut::deck {

@@ -1,6 +1,6 @@
 #include "deck/sections/conditions.hpp"
 
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "deck/problems.hpp"
 #include "deck/sections/node_sets.hpp"
 #include "deck/sections/tools.hpp"

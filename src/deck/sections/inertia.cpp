@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "deck/problems.hpp"
 #include "mechanics/breaks_at_rest.hpp"
 

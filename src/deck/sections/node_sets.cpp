@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "deck/problems.hpp"
 #include "deck/values.hpp"
 

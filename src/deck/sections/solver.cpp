@@ -1,6 +1,6 @@
 #include "deck/sections/solver.hpp"
 
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "deck/sections/several_sections.hpp"
 
 namespace strut::deck {

@@ -1,6 +1,6 @@
 #include "deck/sections/tools.hpp"
 
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "deck/problems.hpp"
 #include "deck/values.hpp"
 

@@ -234,7 +234,7 @@ TEST(DeckOfPeridigm, KeysWithoutEffectAreTold) {
         "here",
         "Contact > Models > touch > Contact Radius is the distance from which points push each "
         "other; those of two bodies that start nearer do so from that distance on, in Peridigm "
-        "from the radius on, so that they push at once",
+        "from the radius on, so that they push at once, as hard as here after an approach by the difference of both",
         "Verbose has no effect here: the program says what it does at all times",
         "Contact > Search Radius has no effect here: the program finds out when to search",
         "Contact > Search Frequency has no effect here: the program finds out when to search"}) {
@@ -632,6 +632,11 @@ TEST(DeckOfPeridigm, YamlIsReadAsXml) {
   const DiskCrack disk = std::get<DiskCrack>(deck.discretization.cracks[0]);
   EXPECT_EQ(disk.normal, Vector::UnitZ());
   EXPECT_EQ(disk.radius, 0.2);
+  const std::string in_lines = changed(fracturing, R"({Material Model: "Elastic", Density: 2440.0, )",
+                                       "\n      Material Model: >\n        Elastic\n      Density: 2440.0\n      ");
+  EXPECT_EQ(
+      folder.read(changed(changed(in_lines, ", Shear", "\n      Shear"), "30.0e9}", "30.0e9")).materials[0].density,
+      2440);
 }
 
 // PeriLab's lists of points begin with a line that names their column.

@@ -1,13 +1,14 @@
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <type_traits>
 
-namespace strut::deck {
+namespace strut {
 
 namespace {
 
@@ -35,6 +36,11 @@ std::string_view trimmed(std::string_view text) {
 std::optional<int> to_integer(std::string_view text) { return parse<int>(text); }
 
 std::optional<double> to_real(std::string_view text) { return parse<double>(text); }
+
+std::optional<double> to_finite(std::string_view text) {
+  const auto number = to_real(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
 
 std::optional<bool> to_boolean(std::string_view text) {
   std::string word(trimmed(text));
@@ -70,4 +76,4 @@ std::string to_text(double value) {
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
-}  // namespace strut::deck
+}  // namespace strut

@@ -6,12 +6,13 @@
 #include <string_view>
 #include <vector>
 
-namespace strut::deck {
+namespace strut {
 
 std::string_view trimmed(std::string_view text);
 
 std::optional<int> to_integer(std::string_view text);
 std::optional<double> to_real(std::string_view text);  // may be infinite or NaN: "inf", "1e999", "nan"
+std::optional<double> to_finite(std::string_view text);
 std::optional<bool> to_boolean(std::string_view text);
 
 // "0 0 1", "0, 0, 1" or, as Teuchos writes arrays, "{0, 0, 1}".
@@ -22,4 +23,4 @@ std::vector<std::string> to_words(std::string_view text);  // separated by blank
 // The shortest text that reads back as `value`.
 std::string to_text(double value);
 
-}  // namespace strut::deck
+}  // namespace strut
