@@ -54,6 +54,17 @@ std::vector<double> volumes_within_horizons(const Domain& domain) {
   return volumes;
 }
 
+// The same of the family alone, whose larger points reach farther than the horizon of this one.
+double volume_of_neighbors(const Domain& domain, int i) {
+  const double horizon = domain.horizon(i);
+  double volume = domain.volume(i);
+  domain.families.for_each(i, [&](int j) {
+    const bool is_within = (domain.reference(j) - domain.reference(i)).squaredNorm() < horizon * horizon;
+    if (is_within) volume += domain.volume(j);
+  });
+  return volume;
+}
+
 bool is_crowded(const Domain& domain, int i, double volume_within) {
   const double horizon = domain.horizon(i);
   if (horizon < least_horizon * std::cbrt(domain.volume(i))) return false;
@@ -74,8 +85,7 @@ std::string crowds(const Body& body, std::int64_t pieces) {
   std::vector<int> points;
   for (int i = 0; i < body.owned(); ++i) {
     if (domain.families.lattice(i)) continue;
-    if (is_crowded(domain, i, volumes.empty() ? domain.volume(i) + family_volume(domain, i) : volumes[i]))
-      points.push_back(i);
+    if (is_crowded(domain, i, volumes.empty() ? volume_of_neighbors(domain, i) : volumes[i])) points.push_back(i);
   }
   const FoundPoints found = found_points(body, {points})[0];
   if (found.count == 0) return "";

@@ -35,6 +35,22 @@ TEST(Overlaps, OfBondedBlocksAreTold) {
   }
 }
 
+// Small points have larger ones in their families, which lie outside of their own horizon.
+TEST(Overlaps, AreNotToldWhereCellsGrow) {
+  const RunFolder folder;
+  const double small = 1e-3, large = 1.8e-3;  // m; volumes 1 : 5.8
+  folder.write("points.txt",
+               cubes(1, Vector::Zero(), 9, 9, 4, small) + cubes(1, Vector(0, 0, 4 * small), 5, 5, 3, large));
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  for (const char* factor : {"1.75", "3.01"}) {
+    parts.blocks =
+        section("one", key("Block Names", "block_1") + key("Material", "copper") + key("Horizon Factor", factor));
+    const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+    EXPECT_EQ(told_at_the_start(deck, folder.world).warnings.find("as much material"), std::string::npos) << factor;
+  }
+}
+
 // Hexahedra that share no nodes: bonds run through material, so neither is bonded to the other.
 TEST(Overlaps, OfPiecesOfABodyThatAreNotBondedAreTold) {
   const auto told = [](double apart) {
