@@ -15,66 +15,33 @@ constexpr double young = 1e9, poisson = 0.3, yield = 5e6, hardening = 1e8;  // P
 constexpr double spacing = 1e-3;                                            // m
 constexpr double horizon = 1.75;                                            // spacings
 
-inline materials::AnyLaw elastic_plastic(double slope = hardening) {
-  const auto moduli = std::get<materials::Elastic>(elastic(young, poisson));
-  return materials::J2{moduli.bulk, moduli.shear, {yield, materials::LinearHardening{slope}, materials::NoRate{}}};
-}
+materials::AnyLaw elastic_plastic(double slope = hardening);
 
-inline LatticeSpec lattice_of(const Eigen::Array3i& cells, materials::AnyLaw law, double size = spacing) {
-  LatticeSpec spec{cells, size, horizon};
-  spec.material = {.density = 1000, .law = std::move(law), .stabilization = MeanGradientStabilization{0.01}};
-  return spec;
-}
+LatticeSpec lattice_of(const Eigen::Array3i& cells, materials::AnyLaw law, double size = spacing);
 
 using Where = std::function<bool(const Vector&)>;
 
-inline std::vector<int> points_where(const Body& body, const Where& where) {
-  std::vector<int> points;
-  for (int i = 0; i < body.owned(); ++i) {
-    if (where(body.domain.reference(i))) points.push_back(i);
-  }
-  return points;
-}
+std::vector<int> points_where(const Body& body, const Where& where);
 
 // The layer of points at one end of a lattice along an axis.
-inline std::vector<int> layer(const Body& body, const LatticeSpec& spec, int axis, bool upper) {
-  const double place = spec.spacing * (upper ? spec.cells[axis] - 0.5 : 0.5);
-  return points_where(body, [&](const Vector& X) { return std::abs(X[axis] - place) < 0.1 * spec.spacing; });
-}
+std::vector<int> layer(const Body& body, const LatticeSpec& spec, int axis, bool upper);
 
-inline Observer nobody() {
-  return {[](const std::string&) {}, {}, [] { return false; }};
-}
+Observer nobody();
 
 // A body and its conditions, numbered as they are added; loads run from t = 0 to 1.
 struct Loaded {
   using Make = Body (*)(const LatticeSpec&, const Communicator&);
-  explicit Loaded(const LatticeSpec& lattice, Make make = lattice_body) : spec(lattice), body(make(spec, world)) {}
+  explicit Loaded(const LatticeSpec& lattice, Make make = lattice_body);
+  ~Loaded();
 
-  int move(std::vector<int> points, int component, const std::string& value) {
-    conditions.add(PrescribedMotion{std::move(points), {component}, Function::parse(value), false, count});
-    return count++;
-  }
-  int hold(std::vector<int> points, const Vector& normal) {
-    conditions.add(SymmetryPlane{std::move(points), normal, count});
-    return count++;
-  }
+  int move(std::vector<int> points, int component, const std::string& value);
+  int hold(std::vector<int> points, const Vector& normal);
   // Adds a tool that all points may meet.
-  int press(Shape shape, int axis, const std::string& travel, double friction = 0) {
-    RigidTool tool{points_where(body, [](const Vector&) { return true; }), std::move(shape), {}, friction, count};
-    tool.travel[axis] = Function::parse(travel);
-    conditions.add(std::move(tool));
-    return count++;
-  }
+  int press(Shape shape, int axis, const std::string& travel, double friction = 0);
   // Holds the lower faces across x and y along their normals: this prevents rigid translation across z, and a bar in
   // uniaxial stress feels no force.
-  void guide() {
-    hold(layer(body, spec, 0, false), Vector::UnitX());
-    hold(layer(body, spec, 1, false), Vector::UnitY());
-  }
-  QuasiStatic solver(const QuasiStaticControl& control = {}) {
-    return QuasiStatic(body, conditions, std::move(contact), control, 0, 1, nobody());
-  }
+  void guide();
+  QuasiStatic solver(const QuasiStaticControl& control = {});
 
   Communicator world;
   LatticeSpec spec;
@@ -85,29 +52,15 @@ struct Loaded {
 };
 
 // The owned point nearest to a place, or −1 where another rank has it.
-inline int point_at(const Body& body, const Vector& place) {
-  for (int i = 0; i < body.owned(); ++i) {
-    if ((body.domain.reference(i) - place).norm() < 1e-3 * spacing) return i;
-  }
-  return -1;
-}
+int point_at(const Body& body, const Vector& place);
 
 // A number with all digits, for expressions of a deck.
-inline std::string number(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
-}
+std::string number(double value);
 inline std::string ramp(double end) { return number(end) + " * t"; }
 
 // A bar along z between its end layers: the lower one stays, the upper one is moved.
 struct Bar : Loaded {
-  Bar(const LatticeSpec& lattice, double strain) : Loaded(lattice) {
-    guide();
-    low = move(layer(body, spec, 2, false), 2, "0");
-    high = move(layer(body, spec, 2, true), 2, ramp(strain * length()));
-  }
+  Bar(const LatticeSpec& lattice, double strain);
   double length() const { return spec.spacing * (spec.cells[2] - 1); }
   double section() const { return spec.spacing * spec.spacing * spec.cells[0] * spec.cells[1]; }
   Vector middle() const { return 0.5 * spec.spacing * spec.cells.cast<double>().matrix(); }
@@ -120,12 +73,7 @@ struct Bar : Loaded {
 class Gauge {
  public:
   Gauge(const Body& body, const Vector& place) : body_(body), point_(point_at(body, place)) {}
-  void step() {
-    if (point_ < 0) return;
-    const Vector now = body_.points[point_].deformation_gradient.diagonal();
-    for (int c = 0; c < 3; ++c) strain_[c] += 2 * (now[c] - stretch_[c]) / (now[c] + stretch_[c]);
-    stretch_ = now;
-  }
+  void step();
   // Collective, as those below.
   double strain(int c) const { return body_.domain.communicator.sum(strain_[c]); }
   double stretch(int c) const {
@@ -151,30 +99,15 @@ class Gauge {
 using Look = std::function<void(QuasiStatic&)>;
 
 // Runs to the end of the loads, and calls `look` after every load step.
-inline Ledger load(
-    QuasiStatic& solver, const Look& look = [](QuasiStatic&) {}) {
-  while (solver.time() < 1) {
-    solver.advance();
-    look(solver);
-  }
-  return solver.ledger();
-}
+Ledger load(
+    QuasiStatic& solver, const Look& look = [](QuasiStatic&) {});
 
 // Largest sum over all points (N) of the forces that a search with this tolerance may leave, as for random directions.
-inline double left_over(const Loaded& loaded, const Tolerance& tolerance, double scale) {
-  const double points = static_cast<double>(loaded.world.sum(static_cast<std::int64_t>(loaded.body.owned())));
-  return tolerance.relative * std::sqrt(points) * scale;
-}
+double left_over(const Loaded& loaded, const Tolerance& tolerance, double scale);
 
-inline std::vector<Vector> displacements(const Body& body) {
-  std::vector<Vector> all(body.owned());
-  for (int i = 0; i < body.owned(); ++i) all[i] = body.displacement(i);
-  return all;
-}
+std::vector<Vector> displacements(const Body& body);
 
 // The largest difference of two bodies made alike.
-inline double largest_difference(const Body& one, const Body& other) {
-  return largest_over(one, [&](int i) { return (one.displacement(i) - other.displacement(i)).norm(); });
-}
+double largest_difference(const Body& one, const Body& other);
 
 }  // namespace strut

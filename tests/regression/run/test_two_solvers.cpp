@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
-#include "deck/numbers.hpp"
+#include "base/numbers.hpp"
 #include "regression/bodies.hpp"
 #include "run/simulation.hpp"
 
@@ -133,7 +133,7 @@ TEST(TwoSolvers, AnIntervalLongerThanTheStepsIsTold) {
   const RunFolder folder;
   const deck::Deck deck = deck::read(folder.write("deck.xml", deck_of(parts)), folder.world);
   ASSERT_EQ(deck.notes.size(), 1u);
-  EXPECT_EQ(deck.notes[0], "History > Interval is 0.1 s, also in Solver 2, which lasts " + deck::to_text(1.000005 - 1) +
+  EXPECT_EQ(deck.notes[0], "History > Interval is 0.1 s, also in Solver 2, which lasts " + to_text(1.000005 - 1) +
                                " s: of its steps only the last one is written");
 }
 
