@@ -229,4 +229,33 @@ std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& poi
   return text.str();
 }
 
+std::string values_between_load_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
+  if (!deck.solver.quasi_static) return "";
+  constexpr int looks_between = 16;
+  constexpr double told = 2;  // times the largest value at load steps: a half of a wave between two reaches far less
+  const int load_steps = deck.solver.quasi_static->load_steps;
+  const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
+  std::ostringstream text;
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    std::vector<Function> values = ways_of(deck.conditions[c]);
+    for (Function& load : sampled_values(deck.conditions[c])) values.push_back(std::move(load));
+    for (const Function& value : values) {
+      if (!value.depends_on_time()) continue;
+      double at_load_steps = 0, between = 0, time = 0;
+      at_corners(value, where(points[c], body), [&](const auto& of_time) {
+        for (int k = 0; k <= looks_between * load_steps; ++k) {
+          const double t = start + duration * k / (looks_between * load_steps), size = std::abs(of_time(t));
+          if (k % looks_between == 0) at_load_steps = std::max(at_load_steps, size);
+          if (size > between) between = size, time = t;
+        }
+      });
+      if (!(between > told * at_load_steps)) continue;
+      text << "WARNING: " << value.path() << ": reaches " << between << " at t = " << time
+           << " s, between two load steps, and no more than " << at_load_steps
+           << " at any of them: the equilibria do not see it; is it meant, with " << load_steps << " load steps?\n";
+    }
+  }
+  return text.str();
+}
+
 }  // namespace strut

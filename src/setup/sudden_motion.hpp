@@ -1,4 +1,4 @@
-// Values of conditions that jump within one step.
+// Values of conditions that change too fast for the steps.
 #pragma once
 
 #include <string>
@@ -20,5 +20,8 @@ std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& poi
 // Collective. For explicit steps: warns of loads and velocities that jump up and down within so few steps that their
 // integral depends on where the steps fall, a line each.
 std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);
+
+// Collective. For equilibria: warns of values that are far larger between two load steps than at any, a line each.
+std::string values_between_load_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);
 
 }  // namespace strut
