@@ -127,7 +127,7 @@ std::string rows(const Keys& keys, const std::string& indent = "") {
     else
       ineffective.push_back(key.name);
   }
-  if (!ineffective.empty()) text += indent + "- Without effect, from Peridigm's decks: " + listed(ineffective) + ".\n";
+  if (!ineffective.empty()) text += indent + "- Peridigm's, without effect: " + listed(ineffective) + ".\n";
   return text;
 }
 
