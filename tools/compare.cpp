@@ -196,6 +196,9 @@ double tolerance_of(const std::string& option, const std::string& word) {
   return *number;
 }
 
+const char* const usage =
+    "usage: strut-compare A B [--relative 1e-9] [--absolute 0]   (two results .e or histories .csv)";
+
 Request request_of(const std::vector<std::string>& words) {
   Request request;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -212,8 +215,7 @@ Request request_of(const std::vector<std::string>& words) {
     ++i;
   }
   if (request.files.size() != 2) {
-    throw strut::Error(
-        "usage: strut-compare A B [--relative 1e-9] [--absolute 0]   (two results .e or histories .csv)");
+    throw strut::Error(usage);
   }
   return request;
 }
@@ -244,8 +246,10 @@ bool same(const Series& a, const Series& b, const Tolerance& tolerance) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words == std::vector<std::string>{"--help"}) return std::puts(usage) < 0;
   try {
-    const Request request = request_of({argv + 1, argv + argc});
+    const Request request = request_of(words);
     const bool equal = same(read_series(request.files[0]), read_series(request.files[1]), request.tolerance);
     std::printf("%s (tolerance: %g of a frame's largest magnitude, or %g)\n", equal ? "the same" : "DIFFERENT",
                 request.tolerance.relative, request.tolerance.absolute);

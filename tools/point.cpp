@@ -198,8 +198,10 @@ void drive(const Request& request) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words == std::vector<std::string>{"--help"}) return std::puts(usage) < 0;
   try {
-    const Request request = parse({argv + 1, argv + argc});
+    const Request request = parse(words);
     Runtime runtime(argc, argv);
     drive(request);
   } catch (const std::exception& error) {

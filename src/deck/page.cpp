@@ -110,7 +110,8 @@ std::string listed(const std::vector<std::string>& names) {
 std::string row(const Key& key, const std::vector<std::string>& names, const std::string& indent) {
   const std::string value = value_text(key), fallback = default_text(key);
   const std::string both = value + (value.empty() || fallback.empty() ? "" : "; ") + fallback;
-  return indent + "- " + listed(names) + (both.empty() ? "" : " (" + both + ")") + ": " + key.meaning + "\n";
+  return indent + "- " + listed(names) + (both.empty() ? "" : " (" + both + ")") +
+         (key.meaning.empty() ? "" : ": " + key.meaning) + "\n";
 }
 
 std::string rows(const Keys& keys, const std::string& indent = "") {
@@ -126,7 +127,7 @@ std::string rows(const Keys& keys, const std::string& indent = "") {
     else
       ineffective.push_back(key.name);
   }
-  if (!ineffective.empty()) text += indent + "- Without effect, from Peridigm's decks: " + listed(ineffective) + ".\n";
+  if (!ineffective.empty()) text += indent + "- Peridigm's, without effect: " + listed(ineffective) + ".\n";
   return text;
 }
 
@@ -172,13 +173,13 @@ Keys own_keys(const Section& one, const std::vector<SharedKeys>& shared) {
 struct Written {
   std::map<std::string, std::string> bodies, keys;  // of sections; name and meaning of keys
 
-  // Replaces a long meaning that a key of this name has further up.
+  // Leaves out a long meaning that a key of this name has further up in the section, or names the section that has it.
   void shorten(Key& key, const std::string& path) {
     if (key.meaning.size() <= 20) return;
     const auto [same, is_new] = keys.emplace(key.name + "\n" + key.meaning, path);
     if (is_new) return;
     if (same->second == path)
-      key.meaning = "As above.";
+      key.meaning.clear();
     else if (key.meaning.size() > 60)
       key.meaning = "As in " + same->second + ".";
   }
@@ -257,7 +258,7 @@ const char* const introduction = R"(# Keys of a deck
 
 Generated from the schema in `src/deck`; do not edit by hand. SI units throughout.
 
-A deck is an XML file of nested sections, `<ParameterList name="…">`, and keys, `<Parameter name="…" type="…" value="…"/>`, or the same in YAML. `Blocks > (any name) > Horizon` is the key `Horizon` in a section of any name in the section `Blocks`. In brackets: the value (a real number unless stated), its unit, and `required` or the default.
+A deck is an XML file of nested sections, `<ParameterList name="…">`, and keys, `<Parameter name="…" type="…" value="…"/>`, or the same in YAML. `Blocks > (any name) > Horizon` is the key `Horizon` in a section of any name in the section `Blocks`. In brackets: the value (a real number unless stated), its unit, and `required` or the default. A key without meaning has that of its namesake above.
 
 - bool: type `bool`, `true` or `false`.
 - integer: type `int`, or `string` with an integer.

@@ -88,12 +88,14 @@ std::vector<Observable> kinematic() {
       observable(
           "Displacement", "m", "y − X", [](const Body& b, int i) { return b.displacement(i); }, true),
       observable(
-          "Coordinate_X", "m", "x component of the current position y",
+          "Coordinate_X", "m", "component of the current position y",
           [](const Body& b, int i) { return b.current(i)[0]; }, true),
       observable(
-          "Coordinate_Y", "m", "y component of y", [](const Body& b, int i) { return b.current(i)[1]; }, true),
+          "Coordinate_Y", "m", "component of the current position y",
+          [](const Body& b, int i) { return b.current(i)[1]; }, true),
       observable(
-          "Coordinate_Z", "m", "z component of y", [](const Body& b, int i) { return b.current(i)[2]; }, true),
+          "Coordinate_Z", "m", "component of the current position y",
+          [](const Body& b, int i) { return b.current(i)[2]; }, true),
       observable(
           "Radial_Distance", "m", "distance of y from the z axis",
           [](const Body& b, int i) { return std::hypot(b.current(i)[0], b.current(i)[1]); }, true),

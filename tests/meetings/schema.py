@@ -4,7 +4,7 @@ import subprocess
 from dataclasses import dataclass, field, replace
 
 ANY = "(any name)"
-WITHOUT_EFFECT = "Without effect, from Peridigm's decks"
+WITHOUT_EFFECT = "Peridigm's, without effect"
 
 
 @dataclass
@@ -49,8 +49,9 @@ class Section:
         return section
 
 
-# "- `Name_X`, `Name_Y` (real > 0, m; required): meaning", "- (any name) (expression): meaning"
-ROW = re.compile(r"( *)- (`[^`]+`(?:, `[^`]+`)*|\(any name\))(?: \((.*?)\))?: (.*)")
+# "- `Name_X`, `Name_Y` (real > 0, m; required): meaning", "- (any name) (expression): meaning"; without a meaning, that of
+# the key of this name above.
+ROW = re.compile(r"( *)- (`[^`]+`(?:, `[^`]+`)*|\(any name\))(?: \((.*?)\))?(?:: (.*))?")
 CASE = re.compile(r"(?:- |### )([^`\"]+?) = (\"[^\"]*\"(?:, \"[^\"]*\")*)(?::.*)?")
 # "reals > 0, m": kind, range, unit; a real number has no kind.
 VALUE = re.compile(r"(?:(3 reals|bool|integer|reals|real|text|axes|names|expression)\b ?)?([<>≥≤] [^,]+|in [\[(].*?[\])])?(?:, )?(.*)")
@@ -115,10 +116,10 @@ class Page:
             self.open(f"{self.owner.path} > {ANY}", required=True)
         elif source := re.fullmatch(r"The keys of (.*)\.", line):
             self.copy(source[1])
-        elif idle := re.fullmatch(r" *- Without effect, from Peridigm's decks: (.*)\.", line):
+        elif idle := re.fullmatch(rf" *- {WITHOUT_EFFECT}: (.*)\.", line):
             self.keep(idle[1], "bool", WITHOUT_EFFECT)
         elif row := ROW.fullmatch(line):
-            self.keep(row[2], row[3], row[4])
+            self.keep(row[2], row[3], row[4] or "")
         elif case := CASE.fullmatch(line):
             self.open_cases(case[1], re.findall(r'"([^"]*)"', case[2]), line.startswith("### "))
 

@@ -1,6 +1,8 @@
 #!/bin/sh
-# help.sh STRUT: --help is the program's own page and names every option; wrong words are told for what they are.
+# help.sh STRUT TOOL…: --help is the program's own page and names every option; wrong words are told for what they are.
+# --help of the tools begins with their usage.
 strut=$1
+shift
 failed=0
 
 fail() {
@@ -28,6 +30,13 @@ case $page in
   strut:*) ;;
   *) fail "strut --help does not begin with its own page: $page" ;;
 esac
+for tool in "$@"; do
+  page_of_tool=$("$tool" --help) || fail "$tool --help: status $?"
+  case $page_of_tool in
+    usage:*) ;;
+    *) fail "$tool --help does not begin with its usage: $page_of_tool" ;;
+  esac
+done
 # Every option that the source compares a word with.
 for option in $(grep -o '== "-[a-z-]*"' "$(dirname "$0")/../../src/main.cpp" | tr -d '="'); do
   case $page in

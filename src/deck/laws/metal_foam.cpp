@@ -32,7 +32,7 @@ const OptionalKey<double> solid_density({.name = "Solid Density",
 const OptionalKey<double> failure_strain(
     {.name = "Failure Strain",
      .range = positive,
-     .meaning = "A point fails when the logarithm of its volume ratio exceeds this: it loses its stress and keeps mass "
+     .meaning = "A point fails when the logarithm of its volume ratio exceeds this: it loses its stress, not its mass "
                 "and contact. Without this key none fails."});
 
 const OptionalKey<double> compacted_young(

@@ -16,8 +16,8 @@ const char* const interactions_name = "Interactions";
 const OptionalKey<std::string> first_block(
     {.name = "First Block",
      .meaning =
-         "A block of the mesh. Without both blocks: all blocks that no other interaction names, in the section "
-         "`General Contact` each with all others, in `Self Contact` each with itself, in one of another name both."});
+         "A block of the mesh. If both keys are missing: all blocks that no other interaction names, each with itself "
+         "and the others (section `General Contact`: only with the others, `Self Contact`: only with itself)."});
 
 const OptionalKey<std::string> second_block({.name = "Second Block",
                                              .meaning = "The other block, or the same (self-contact)."});

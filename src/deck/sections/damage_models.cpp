@@ -48,8 +48,8 @@ const RealKey tearing_energy(
      .unit = "J/m²",
      .range = not_negative,
      .fallback = "0",
-     .meaning = "G_c, dissipated per area of crack (roughly) while the stress falls after the criterion is met. With 0 "
-                "a point fails at once, and the dissipation depends on the spacing."});
+     .meaning = "G_c, dissipated per area of crack (roughly) while the stress falls once the criterion is met. 0: a "
+                "point fails at once, and the dissipation depends on the spacing."});
 
 const RealKey failure_strain({.name = "Failure Strain", .range = positive, .meaning = "ε_f."});
 

@@ -65,12 +65,13 @@ const ChoiceKey<MeshType> type(
 const OptionalKey<std::string> mesh_file(
     {.name = "Input Mesh File", .meaning = "Path relative to the deck's folder. Required for Exodus and Text File."});
 
-const Key neighborhood = {.name = "NeighborhoodType",
-                          .kind = Kind::choice,
-                          .choices = {"Spherical", "Box"},
-                          .meaning =
-                              "Required for PdQuickGrid: points within the horizon; or, as in Peridigm without "
-                              "this key, a box of cells, along each axis as many as the horizon has, rounded."};
+const Key neighborhood = {
+    .name = "NeighborhoodType",
+    .kind = Kind::choice,
+    .choices = {"Spherical", "Box"},
+    .meaning =
+        "Required for PdQuickGrid: neighbors are the points within the horizon, or, as in Peridigm without this key, "
+        "in a box of cells, as long along each axis as the horizon, rounded."};
 
 const ChoiceKey<Points> points(
     {.name = "Points",
@@ -88,10 +89,10 @@ const ChoiceKey<Influence> influence(
 const ChoiceKey<DegeneratePoints> degenerate(
     {.name = "Degenerate Points",
      .fallback = "Error",
-     .meaning = "Treatment of points whose neighbors are too few, or coplanar, for a deformation gradient. `Drop` "
-                "removes them, and pieces that they alone connect, up to 1 % of all points; `Drop Any` has no limit. "
-                "`Keep` leaves points of 'Elastic' without neighbors as masses that loads and contact move (in "
-                "Peridigm's decks without this key); others are an error."},
+     .meaning = "Points whose neighbors are too few, or coplanar, for a deformation gradient. `Drop` removes them, and "
+                "pieces that they alone connect, up to 1 % of all points, `Drop Any` any number. `Keep` leaves points "
+                "of 'Elastic' without neighbors as masses that loads and contact move (as do Peridigm's decks without "
+                "this key); others are an error."},
     {{"Error", DegeneratePoints::error},
      {"Drop", DegeneratePoints::drop},
      {"Drop Any", DegeneratePoints::drop_any},

@@ -40,7 +40,7 @@ const IntegerKey rows({.name = "Rows",
 const Section cracks = {.name = "Cracks",
                         .meaning =
                             "Cracks whose tips are followed. The tip is the cracked point farthest from the start "
-                            "along the direction, in the reference state; 0 where no point is cracked.",
+                            "along the direction, in the reference state; 0 if no point is cracked.",
                         .sections = {{.name = any_name,
                                       .required = true,
                                       .meaning = "One crack.",

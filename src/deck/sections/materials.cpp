@@ -16,10 +16,9 @@ const char* const name = "Materials";
 const ChoiceKey<Formulation> formulation(
     {.name = "Formulation",
      .fallback = "Correspondence",
-     .meaning =
-         "Deformation gradient: constant at a point (Silling et al. 2007), or linear over the cell of the point, for "
-         "struts and plates a few points thick, without stabilization; neighbors are then elements that share a node, "
-         "or nodes that share an element."},
+     .meaning = "Deformation gradient: constant at a point (Silling et al. 2007), or linear over the cell of the "
+                "point, for struts and plates a few points thick: without stabilization, with the neighbors that share "
+                "a node (or element)."},
     {{"Correspondence", Formulation::correspondence}, {"Quadratic Correspondence", Formulation::quadratic}});
 
 std::vector<std::pair<std::string, Stabilization>> stabilizations() {

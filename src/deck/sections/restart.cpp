@@ -22,11 +22,10 @@ const RealKey minutes({.name = "Minutes",
                        .fallback = "30",
                        .meaning = "Computing time between checkpoints, in addition."});
 
-const BooleanKey resumes(
-    {.name = "Restart",
-     .fallback = "false",
-     .meaning = "Peridigm's key. true: a run that would replace a checkpoint is refused, and so is one without a "
-                "checkpoint and without Start From whose Initial Time is not 0."});
+const BooleanKey resumes({.name = "Restart",
+                          .fallback = "false",
+                          .meaning = "Peridigm's key. true refuses a run that would replace a checkpoint, or that "
+                                     "begins at another Initial Time than 0 without a checkpoint or Start From."});
 
 }  // namespace
 
@@ -34,8 +33,8 @@ Section restart_section() {
   return {.name = name,
           .meaning =
               "Checkpoints, from which `strut --continue deck.xml` resumes a run and another run can begin (Start "
-              "From). They are written at these times, at a signal, and at the end. Without this section: every " +
-              *minutes.fallback + " minutes, and at the end of a run with the section Output.",
+              "From). They are written at these times, at a signal, and at the end; without this section every " +
+              *minutes.fallback + " minutes, and at the end if there is a section Output.",
           .keys = {enabled, file, when.frequency, when.interval, minutes, resumes}};
 }
 

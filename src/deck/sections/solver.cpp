@@ -62,12 +62,11 @@ QuasiStatic read_quasi_static(const Values& values) {
 const OptionalKey<double> fixed_dt(
     {.name = "Fixed dt", .unit = "s", .range = positive, .meaning = "Constant time step."});
 
-const RealKey safety_factor(
-    {.name = "Safety Factor",
-     .range = {.low = 0, .high = 1, .with_low = false},
-     .fallback = "0.8",
-     .meaning = "Time step as a fraction of the critical time step, which follows the deformation; a step is kept "
-                "until this fraction exceeds 1.05 times the factor."});
+const RealKey safety_factor({.name = "Safety Factor",
+                             .range = {.low = 0, .high = 1, .with_low = false},
+                             .fallback = "0.8",
+                             .meaning = "Time step over the critical time step, which follows the deformation; a step "
+                                        "is kept until this ratio exceeds 1.05 times the factor."});
 
 const BooleanKey subcycling(
     {.name = "Subcycling",
@@ -78,8 +77,8 @@ const OptionalKey<double> scaled_dt(
     {.name = "Mass Scaling dt",
      .unit = "s",
      .range = positive,
-     .meaning = "Mass scaling: points that would make the first step shorter get additional mass, which the run "
-                "reports. Contact and deformation may shorten later steps."});
+     .meaning = "Mass scaling: points that would make the first step shorter get additional mass (reported). Contact "
+                "and deformation may shorten later steps."});
 
 const RealKey most_added_mass({.name = "Most Added Mass",
                                .range = {.low = 0, .with_low = false},
@@ -89,7 +88,7 @@ const RealKey most_added_mass({.name = "Most Added Mass",
 const RealKey rebalance({.name = "Rebalance",
                          .range = {.low = 1, .with_low = false},
                          .fallback = "1.3",
-                         .meaning = "A new partition is made where the largest work of a rank exceeds this multiple of "
+                         .meaning = "A new partition is made if the largest work of a rank exceeds this multiple of "
                                     "the mean and the remaining run is worth it. Fields keep their bits. 1e9: never."});
 
 const Section verlet = {.name = "Verlet",
@@ -110,7 +109,7 @@ const OptionalKey<double> wall_time(
      .unit = "s",
      .range = positive,
      .meaning = "After this time, set-up included, the run ends with a checkpoint, a last frame and the exit status 3. "
-                "Choose the limit of the job less the time of a step, a frame and a checkpoint."});
+                "Choose the job's limit less the time of a step, a frame and a checkpoint."});
 
 const BooleanKey keeps_velocities(
     {.name = "Keep Velocities",
@@ -171,9 +170,9 @@ Section next_solver_section() {
   section.name = next_name;
   section.required = false;
   section.meaning =
-      "Explicit steps after the equilibria of Solver: a body that is loaded slowly, then struck. Conditions that need "
-      "inertia (initial velocities, tools with a mass, non-reflecting ends) begin here, and the breaking of bonds that "
-      "hold in equilibria.";
+      "Explicit steps after the equilibria of Solver: a body is loaded slowly, then struck. Conditions that need "
+      "inertia (initial velocities, tools with a mass, non-reflecting ends) begin here; bonds that hold in equilibria "
+      "may break.";
   section.keys.push_back(keeps_velocities);
   return section;
 }

@@ -21,10 +21,10 @@ const OptionalKey<bool> keeps_velocities(
 Section start_from_section() {
   return {.name = name,
           .meaning =
-              "Bodies begin as another run of the same mesh, blocks, materials, symmetry planes and periodic sides has "
+              "Bodies begin as another run of the same mesh, blocks, materials, symmetry planes and periodic sides "
               "left them, on any number of ranks: positions, velocities, stress and state of the laws, temperature, "
               "thermal strain, broken bonds, friction of surfaces. Conditions, contact, solver and output are those of "
-              "this deck; times begin at Initial Time, work at zero.",
+              "this deck; work begins at zero.",
           .keys = {checkpoint, keeps_velocities}};
 }
 

@@ -39,12 +39,11 @@ const RealKey penetration(
      .fallback = "0.95",
      .meaning = "Limit of the overlap of two points over their touching distance (explicit steps)."});
 
-const RealKey interpenetration(
-    {.name = "Passing",
-     .range = {.low = 0, .high = 1},
-     .fallback = "0.01",
-     .meaning = "Limit of interpenetration: points of two bodies with declared contact that are inside the other body, "
-                "over the points of the smaller one. 1: no limit."});
+const RealKey interpenetration({.name = "Passing",
+                                .range = {.low = 0, .high = 1},
+                                .fallback = "0.01",
+                                .meaning = "Limit of interpenetration of bodies with declared contact: points inside "
+                                           "the other body over the points of the smaller one. 1: no limit."});
 
 }  // namespace
 
