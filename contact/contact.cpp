@@ -66,15 +66,19 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   contact_pair.places.clear();
   for (const int i : blocks.points) contact_pair.places.push_back(kinematics.domain.current(i));
   contact_pair.skins = skin_distances_by_speed(kinematics, blocks, contact_pair.mean_velocity, contact_pair.skin, dt);
-  contact_pair.pairs =
-      find_pairs(kinematics, blocks, radius_of(contact_pair.model.law), contact_pair.skins, broken_before_);
+  const double radius = radius_of(contact_pair.model.law);
+  if (contact_pair.searched) contact_pair.pressed = pressed_pairs(contact_pair.pairs);
+  contact_pair.pairs = find_pairs(kinematics, blocks, radius, contact_pair.skins, broken_before_);
   if (contact_pair.model.friction > 0) contact_pair.couples.take(kinematics.domain, contact_pair.pairs.owned);
   contact_pair.frame = frame_of(kinematics, blocks, contact_pair.pairs);
   contact_pair.searched = true;
   contact_pair.meets = false;
   const BrokenCounts before = std::exchange(contact_pair.broken_counts, broken_of(kinematics.domain, blocks));
+  const Domain& domain = kinematics.domain;
   if (contact_pair.surfaces) {
-    contact_pair.surfaces->take(kinematics.domain, blocks, contact_pair.broken_counts, before, contact_pair.pairs);
+    contact_pair.surfaces->take(domain, blocks, before, contact_pair.broken_counts, contact_pair.pairs);
+  } else {
+    set_limits(domain, blocks, radius, before, contact_pair.broken_counts, contact_pair.pressed, contact_pair.pairs);
   }
   contact_pair.used = 0;
   contact_pair.result = {};
@@ -330,22 +334,25 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
   archive.number("searches", searches_);
   for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
     ContactPair& pair = contact_pairs_[m];
-    const std::string name = "contact_" + std::to_string(m);
-    const bool may_break = pair.blocks.one_body && !kinematics.domain.families.broken.empty();
-    if (may_break) serialize_counts(archive, name + "_breaks", kinematics.domain, pair);
-    if (!pair.surfaces || (pair.model.friction == 0 && !may_break)) continue;
-    pair.surfaces->serialize(archive, name, kinematics.domain, pair.blocks);
+    const Domain& domain = kinematics.domain;
+    const bool may_break = pair.blocks.one_body && !domain.families.broken.empty();
+    if (!may_break && !(pair.surfaces && pair.model.friction > 0)) continue;
+    std::vector<std::int64_t> ids;
+    for (const int i : pair.blocks.points) ids.push_back(domain.id(i));
+    archive.points("contact_" + std::to_string(m), ids);
+    if (may_break) serialize_breaks(archive, domain, pair);
+    if (pair.surfaces) pair.surfaces->serialize(archive, may_break);
   }
   if (archive.loading()) restore(kinematics, dt);
 }
 
 // Bonds that have broken since the last search count in the next one only.
-void Contact::serialize_counts(Archive& archive, const std::string& name, const Domain& domain, ContactPair& pair) {
-  std::vector<std::int64_t> ids;
-  for (const int i : pair.blocks.points) ids.push_back(domain.id(i));
-  pair.broken_counts.resize(ids.size(), 0);
-  archive.points(name, ids);
+void Contact::serialize_breaks(Archive& archive, const Domain& domain, ContactPair& pair) {
+  pair.broken_counts.resize(pair.blocks.points.size(), 0);
   archive.field("broken_at_search", 1, [&pair](std::size_t k, int) -> std::size_t& { return pair.broken_counts[k]; });
+  if (pair.surfaces) return;
+  if (pair.searched) pair.pressed = pressed_pairs(pair.pairs);
+  contact::serialize(archive, domain, pair.blocks, pair.pressed);
 }
 
 // Restores pairs and friction; the solver has the forces.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/archive.hpp"
+#include "contact/breaks.hpp"
 #include "contact/forces.hpp"
 #include "contact/search/pairs.hpp"
 #include "contact/search/skin_distances.hpp"
@@ -109,7 +110,8 @@ class Contact {
     Pairs pairs = {};
     Couples couples = {};  // of friction
     bool searched = false;
-    BrokenCounts broken_counts = {};  // numbers of broken bonds of blocks.points at the last search
+    BrokenCounts broken_counts = {};        // numbers of broken bonds of blocks.points at the last search
+    std::vector<PressedPair> pressed = {};  // of a checkpoint, for the next search
     // As of the last check of the skin distances.
     Vector mean_velocity = Vector::Zero();  // m/s
     double used = 0;     // a bound of the fraction of its skin distance that any point has used since the last search
@@ -129,7 +131,7 @@ class Contact {
   void search(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   void count_broken(const Domain& domain);
   BrokenCounts broken_of(const Domain& domain, const BlockPair& blocks) const;
-  static void serialize_counts(Archive& archive, const std::string& name, const Domain& domain, ContactPair& pair);
+  static void serialize_breaks(Archive& archive, const Domain& domain, ContactPair& pair);
   void restore(const Kinematics& kinematics, double dt);
   static bool breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair);
   void check(const Kinematics& kinematics, double dt, ContactPair& contact_pair);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/breaks.hpp"
 #include "contact/largest_eigenvalue.hpp"
 #include "contact/laws/contact_law.hpp"
 
@@ -78,7 +79,9 @@ void for_each_near(const Pairs& pairs, const Ways& ways, const L& law, std::size
     const double distance2 = eta.squaredNorm();
     if (!(distance2 < reach2)) continue;
     const PointPair pair = pair_of(here, there, pairs.one_body);
-    const double touching = law.touching_distance(pair), seen = touching + ways.most;
+    double touching = law.touching_distance(pair);
+    if (!pairs.limits.empty()) touching = std::min(touching, pairs.limits[p]);
+    const double seen = touching + ways.most;
     if (!(distance2 < just * seen * seen)) continue;
     const double distance = std::sqrt(distance2);
     const double to_come = ways.of.empty() ? distance : (eta + ways.of[partner] - ways.of[k]).norm();
@@ -215,6 +218,7 @@ void for_each_spring(const PairLaw& law, const Pairs& pairs, const Visit& visit)
 ForceResult add_normal_forces(const Kinematics& kinematics, double dt, const PairLaw& law, Pairs& pairs,
                               std::vector<Vector>& force_density, std::vector<Load>& loads) {
   bring_to_present(kinematics, pairs);
+  if (dt > 0) raise_limits(pairs);
   const Ways ways = ways_of(kinematics, dt, pairs);
   return std::visit([&](const auto& one) { return normal_forces(one, pairs, ways, force_density, loads); }, law);
 }

@@ -41,7 +41,7 @@ struct Load {
 };
 
 // Collective. Updates the pairs to the present positions and adds their normal forces to force_density (N/m³); loads[k]
-// belongs to pairs.owned[k]. dt: length of the last step (s), 0 if there was none.
+// belongs to pairs.owned[k]. dt: length of the last step (s), 0 if there was none, as in a trial of an equilibrium.
 ForceResult add_normal_forces(const Kinematics& kinematics, double dt, const PairLaw& law, Pairs& pairs,
                               std::vector<Vector>& force_density, std::vector<Load>& loads);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "contact/breaks.hpp"
 #include "contact/largest_eigenvalue.hpp"
 #include "contact/laws/contact_law.hpp"
 #include "contact/own_surface.hpp"
@@ -73,16 +74,13 @@ void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, con
   }
 }
 
-void Surfaces::take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& now, const BrokenCounts& before,
+void Surfaces::take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& before, const BrokenCounts& now,
                     Pairs& pairs) {
-  places_.clear();
+  places_ = places_in(blocks, pairs);
   due_.clear();
   std::vector<Vector> slips(blocks.points.size(), Vector::Zero());
   std::vector<double> overlaps(blocks.points.size(), 0);
-  int at = 0;
-  for (const int i : pairs.owned) {
-    while (blocks.points[at] != i) ++at;
-    places_.push_back(at);
+  for (const int at : places_) {
     due_.push_back(points_[at].is_at_surface ? 0 : never);
     slips[at] = slips_[at];
     overlaps[at] = overlaps_[at];
@@ -95,7 +93,7 @@ void Surfaces::take(const Domain& domain, const BlockPair& blocks, const BrokenC
   seen_.clear();
   set_smallest_reaches(pairs);
   set_volumes(pairs);
-  see_through_breaks(domain, now, before, pairs);
+  see_through_breaks(domain, blocks, before, now, pairs);
 }
 
 // Sets the volumes that ρ sums.
@@ -131,17 +129,16 @@ void Surfaces::expose_broken(const Domain& domain, const Pairs& pairs) {
 }
 
 // Points whose bonds have broken since the last search see each other from now on: their overlap stays as it was.
-void Surfaces::see_through_breaks(const Domain& domain, const BrokenCounts& now, const BrokenCounts& before,
-                                  const Pairs& pairs) {
+void Surfaces::see_through_breaks(const Domain& domain, const BlockPair& blocks, const BrokenCounts& before,
+                                  const BrokenCounts& now, const Pairs& pairs) {
   if (now.empty()) return;
   broken_.resize(points_.size());
   std::vector<char> has_partners(points_.size(), false);
   for (const int at : places_) has_partners[at] = true;
   for (std::size_t at = 0; at < points_.size(); ++at) broken_[at].excess *= has_partners[at];
-  for (std::size_t k = 0; k < pairs.owned.size() && !before.empty(); ++k) {
-    const int i = pairs.owned[k], at = places_[k];
-    std::vector<std::int64_t> unseen;
-    for (std::size_t n = before[at]; n < now[at]; ++n) unseen.push_back(domain.id(domain.families.broken[i][n]));
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    const int at = places_[k];
+    const std::vector<std::int64_t> unseen = new_breaks(domain, blocks, at, before, now);
     if (unseen.empty()) continue;
     const double without = feel(pairs, k, unseen).share, with = feel(pairs, k).share;
     if (!(with > without)) continue;
@@ -278,15 +275,12 @@ void Surfaces::add_springs(const Pairs& pairs, std::span<Tensor> springs) const 
   }
 }
 
-void Surfaces::serialize(Archive& archive, const std::string& name, const Domain& domain, const BlockPair& blocks) {
-  std::vector<std::int64_t> ids;
-  for (const int i : blocks.points) ids.push_back(domain.id(i));
+void Surfaces::serialize(Archive& archive, bool may_break) {
   if (friction_before_.empty()) friction_before_.assign(points_.size(), Vector::Zero());
-  archive.points(name, ids);
   archive.field("slip", 3, [this](std::size_t k, int c) -> double& { return slips_before_[k][c]; });
   archive.field("friction", 3, [this](std::size_t k, int c) -> double& { return friction_before_[k][c]; });
   if (archive.loading()) slips_ = slips_before_;
-  if (!blocks.one_body || domain.families.broken.empty()) return;
+  if (!may_break) return;
   broken_.resize(points_.size());
   archive.field("excess", 1, [this](std::size_t k, int) -> double& { return broken_[k].excess; });
   archive.field("is_exposed", 1, [this](std::size_t k, int) -> bool& { return broken_[k].is_exposed; });

@@ -56,9 +56,9 @@ class Surfaces {
   // each other thereby: the overlap is added to the threshold.
   Surfaces(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law);
 
-  // Call it after a search. The numbers of broken bonds of blocks.points that this search and the one before it know;
-  // empty if no bonds may break.
-  void take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& now, const BrokenCounts& before,
+  // Call it after a search. The numbers of broken bonds of blocks.points that the search before this one and this one
+  // know; empty if no bonds may break, or before the first search.
+  void take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& before, const BrokenCounts& now,
             Pairs& pairs);
 
   // As in forces.hpp for pairs of points. `penetration`: the overlap in spacings of the point. `is_trial`: of an
@@ -78,9 +78,9 @@ class Surfaces {
   void add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const;
   void add_springs(const Pairs& pairs, std::span<Tensor> springs) const;
 
-  // Stretch of the friction springs at the start of the last step or trial, and the friction there. `name`: of this
-  // pair of blocks.
-  void serialize(Archive& archive, const std::string& name, const Domain& domain, const BlockPair& blocks);
+  // Columns of blocks.points: stretch of the friction springs at the start of the last step or trial, and the friction
+  // there; with bonds that may break, what broken points feel.
+  void serialize(Archive& archive, bool may_break);
 
  private:
   // Contact state of a point, as its partners need it.
@@ -119,8 +119,8 @@ class Surfaces {
   void set_volumes(Pairs& pairs) const;
   double excess_of(std::size_t k) const { return broken_.empty() ? 0 : broken_[places_[k]].excess; }
   void expose_broken(const Domain& domain, const Pairs& pairs);
-  void see_through_breaks(const Domain& domain, const BrokenCounts& now, const BrokenCounts& before,
-                          const Pairs& pairs);
+  void see_through_breaks(const Domain& domain, const BlockPair& blocks, const BrokenCounts& before,
+                          const BrokenCounts& now, const Pairs& pairs);
   void note_touching();
   void advance_travel(const Pairs& pairs);
   Felt feel(const Pairs& pairs, std::size_t k, std::span<const std::int64_t> unseen = {}) const;

@@ -39,6 +39,7 @@ struct Pairs {
   std::vector<std::int64_t> ids;      // of the sites' points, the others' ascending
   std::vector<std::size_t> start{0};  // partners of owned[k]: partners[start[k]] … partners[start[k + 1] − 1],
   std::vector<int> partners;          // indices into sites, ordered by global id
+  std::vector<double> limits;         // of partners: they touch at this distance at most, m (breaks.hpp); empty: none
   bool one_body = false;              // as in BlockPair
   std::optional<Halo> halo;           // of sites; none if no rank has a partner on another rank
 

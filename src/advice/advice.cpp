@@ -33,7 +33,6 @@ constexpr Check checks[] = {
     sudden_failure,
     noisy_cracks,
     soft_faces,
-    pressed_failures,
     breaks_under_pressure,
     improbable_stretches,
     bonded_contacts,

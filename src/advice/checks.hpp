@@ -76,9 +76,6 @@ std::string noisy_cracks(const Situation& situation);
 // A warning for each block whose gradual cracks have contact.
 std::string soft_faces(const Situation& situation);
 
-// A warning for each block whose points may fail, with contact between points of its body.
-std::string pressed_failures(const Situation& situation);
-
 // A line for each block whose bonds break by their energy, if several breaks in one step may create energy.
 std::string breaks_under_pressure(const Situation& situation);
 

@@ -67,27 +67,6 @@ std::string soft_faces(const Situation& situation) {
   return text;
 }
 
-std::string pressed_failures(const Situation& situation) {
-  const Body& body = situation.scene.body;
-  const auto by_points_within = [&](int b, const contact::Interaction& one) {
-    const auto body_of = [&](int block) { return body.domain.blocks[block].body; };
-    return (one.first == b || one.second == b) && body_of(one.first) == body_of(one.second) &&
-           !std::holds_alternative<contact::SurfaceLaw>(one.model.law);
-  };
-  std::string text;
-  for (int b = 0; b < std::ssize(body.blocks); ++b) {
-    const auto& damage = body.blocks[b].material.damage;
-    if (!damage || !damage->ductility) continue;
-    const auto& all = situation.interactions;
-    if (std::none_of(all.begin(), all.end(), [&](const auto& one) { return by_points_within(b, one); })) continue;
-    text += "WARNING: block '" + body.blocks[b].name +
-            "': points that fail while they are pressed together are nearer to each other than contact between points "
-            "allows, which throws them apart and makes energy (told by Balance_Error); Contact Model 'Surface' does "
-            "not\n";
-  }
-  return text;
-}
-
 // If K > 5/3 G, the bond's part of the dilatation reduces the energy that its break releases (docs/theory.md, By the
 // energy of a bond). Criteria of energy check that for each bond, those of stretch do not.
 std::string breaks_under_pressure(const Situation& situation) {

@@ -82,7 +82,7 @@ class Fracture : public BondBreaking {
                         std::vector<std::uint8_t>& gone) const;
   void cut(Body& body, MaterialBlock& block, int cluster, double dt);
   void count(Body& body, const Affected& one);
-  void restore(Body& body, const std::vector<double>& bits, int words);
+  void restore(Body& body);
 
   std::vector<char> may_fail_;                  // of blocks: their points may fail, and then lose their bonds
   std::vector<int> block_of_;                   // of owned points and ghosts

@@ -1,7 +1,9 @@
-// The broken bonds in checkpoints: one bit per original bond of a point, in the order of the ids of the far ends,
-// packed into doubles.
+// The broken bonds in checkpoints. For each original bond of a point, in the order of the ids of the far ends: its
+// number among the breaks of the point, from 1 on, or 0 if it holds, packed into doubles. Contact knows by these
+// numbers which breaks its last search has seen.
 #include <algorithm>
-#include <cmath>
+#include <bit>
+#include <limits>
 
 #include "fracture/broken_family.hpp"
 #include "fracture/fracture.hpp"
@@ -9,12 +11,42 @@
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/reflected.hpp"
 #include "mechanics/steepness.hpp"
+#include "topology/neighbors/whole_family.hpp"
 
 namespace strut {
 
 namespace {
 
-constexpr int bits_a_word = 48;
+// Rows of `most` numbers from 0 to `most`, several in a double.
+class PackedRows {
+ public:
+  PackedRows(std::size_t most, std::size_t rows)
+      : bits_(std::max<std::size_t>(1, std::bit_width(most))), words_((most + in_word() - 1) / in_word()) {
+    values_.assign(rows * words_, 0);
+  }
+
+  std::size_t words() const { return words_; }  // of a row
+  double& word(std::size_t row, std::size_t c) { return values_[row * words_ + c]; }
+  bool any(std::size_t row) const {
+    const auto begin = values_.begin() + static_cast<std::ptrdiff_t>(row * words_);
+    return std::any_of(begin, begin + static_cast<std::ptrdiff_t>(words_), [](double word) { return word != 0; });
+  }
+
+  std::size_t get(std::size_t row, std::size_t n) const {
+    const auto word = static_cast<std::uint64_t>(values_[row * words_ + n / in_word()]);
+    return word >> shift(n) & ((std::uint64_t{1} << bits_) - 1);
+  }
+  void set(std::size_t row, std::size_t n, std::size_t number) {  // where it is 0
+    values_[row * words_ + n / in_word()] += static_cast<double>(number << shift(n));
+  }
+
+ private:
+  std::size_t in_word() const { return std::numeric_limits<double>::digits / bits_; }
+  std::size_t shift(std::size_t n) const { return n % in_word() * bits_; }
+
+  std::size_t bits_, words_;
+  std::vector<double> values_;
+};
 
 // Calls visit(index in the order of ids, id) over the original family.
 template <class Visit>
@@ -26,32 +58,40 @@ void over_whole_family(const Domain& domain, int i, const Visit& visit) {
   for (std::size_t n = 0; n < ids.size(); ++n) visit(static_cast<int>(n), ids[n]);
 }
 
-int words_of(const Domain& domain) {
-  std::size_t most = 0;
-  for (int i = 0; i < domain.owned; ++i) {
-    most = std::max(most, domain.families.size(i) + domain.families.broken[i].size());
+// Cuts the bonds of owned point i that have broken.
+void cut_again(Domain& domain, int i, const PackedRows& breaks) {
+  ClusterLists& lists = domain.families.lists;
+  const int c = lists.holding(i), lane = i - lists[c].points[0];
+  const Cluster cluster = lists[c];  // neighbors in the order of their ids
+  std::vector<std::pair<std::size_t, int>> broken;
+  std::size_t place = 0;
+  for (std::size_t n = 0; n < cluster.near.size(); ++n) {
+    if (!(cluster.mask[n] >> lane & 1)) continue;
+    const std::size_t number = breaks.get(i, place++);
+    if (number == 0) continue;
+    lists.cut(c, n, static_cast<std::uint8_t>(1u << lane));
+    broken.emplace_back(number, cluster.near[n]);
   }
-  return (static_cast<int>(domain.communicator.max(static_cast<double>(most))) + bits_a_word - 1) / bits_a_word;
+  lists.drop_cut(c);
+  std::sort(broken.begin(), broken.end());
+  for (const auto& [number, j] : broken) domain.families.broken[i].push_back(j);
 }
 
 }  // namespace
 
 void Fracture::serialize(Archive& archive, Body& body) {
   Domain& domain = body.domain;
-  const int words = words_of(domain);
-  std::vector<double> bits(static_cast<std::size_t>(words) * domain.owned, 0);
+  PackedRows breaks(largest_whole_family(domain), domain.owned);
   for (int i = 0; i < domain.owned; ++i) {
-    if (domain.families.broken[i].empty()) continue;
-    std::vector<std::int64_t> broken;
-    for (const int j : domain.families.broken[i]) broken.push_back(domain.id(j));
-    std::sort(broken.begin(), broken.end());
+    const std::vector<int>& broken = domain.families.broken[i];
+    if (broken.empty()) continue;
     over_whole_family(domain, i, [&](int n, std::int64_t id) {
-      if (std::binary_search(broken.begin(), broken.end(), id)) {
-        bits[static_cast<std::size_t>(i) * words + n / bits_a_word] += std::ldexp(1.0, n % bits_a_word);
-      }
+      const auto found = std::ranges::find(broken, id, [&](int j) { return domain.id(j); });
+      if (found != broken.end()) breaks.set(i, n, found - broken.begin() + 1);
     });
   }
-  archive.field("broken_bonds", words, [&](std::size_t i, int c) -> double& { return bits[i * words + c]; });
+  archive.field("breaks", static_cast<int>(breaks.words()),
+                [&](std::size_t i, int c) -> double& { return breaks.word(i, c); });
   // A break in the next step needs the states at its start.
   const auto states = [&](const char* name, auto& of_points, bool exist) {
     using State = std::remove_cvref_t<decltype(of_points[0])>;
@@ -67,7 +107,11 @@ void Fracture::serialize(Archive& archive, Body& body) {
   states("scalar_state", body.force_states.scalars, any(Formulation::ordinary));
   states("gradient_state", body.force_states.gradients, body.has_springs(ResidualKind::both_gradients));
   states("quadratic_state", body.force_states.quadratics, any(Formulation::quadratic));
-  if (archive.loading()) restore(body, bits, words);
+  if (!archive.loading()) return;
+  for (int i = 0; i < domain.owned; ++i) {
+    if (breaks.any(i)) cut_again(domain, i, breaks);
+  }
+  restore(body);
 }
 
 namespace {
@@ -91,28 +135,15 @@ void exchange_states(Body& body) {
 
 }  // namespace
 
-void Fracture::restore(Body& body, const std::vector<double>& bits, int words) {
-  ClusterLists& lists = body.domain.families.lists;
-  const auto is_gone = [&](int i, int n) {
-    const auto word = static_cast<std::uint64_t>(bits[static_cast<std::size_t>(i) * words + n / bits_a_word]);
-    return (word >> (n % bits_a_word) & 1) != 0;
-  };
+void Fracture::restore(Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     MaterialBlock& block = body.blocks[b];
     const std::size_t breakable = body.may_break(b) ? block.points.size() : 0;
     for (std::size_t k = 0; k < breakable; ++k) {
-      const int i = block.points[k], c = lists.holding(i), lane = i - lists[c].points[0];
-      const Cluster cluster = lists[c];  // neighbors in the order of their ids
-      int place = 0, gone = 0;
-      for (std::size_t n = 0; n < cluster.near.size(); ++n) {
-        if (!(cluster.mask[n] >> lane & 1) || !is_gone(i, place++)) continue;
-        lists.cut(c, n, static_cast<std::uint8_t>(1u << lane));
-        body.domain.families.broken[i].push_back(cluster.near[n]);
-        ++gone;
-      }
-      lists.drop_cut(c);
-      if (gone > 0 && block.lattice >= 0) body.domain.families.off_stencil[i] = 1;
-      if (gone > 0 && body.released[i] == 0) refit(body, block, static_cast<int>(k), most_steepness_[i]);
+      const int i = block.points[k];
+      const bool gone = body.has_lost_bonds(i);
+      if (gone && block.lattice >= 0) body.domain.families.off_stencil[i] = 1;
+      if (gone && body.released[i] == 0) refit(body, block, static_cast<int>(k), most_steepness_[i]);
       if (body.released[i] > 0) release(body, block, static_cast<int>(k));
     }
     set_off_stencil(body.domain, block);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 #include <sstream>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
@@ -269,8 +270,11 @@ void CentralDifference::agree(const StepReport& report) {
   const std::string no_number = conditions_.first_not_finite();
   const std::vector<std::uint8_t>& exposed = multi_stepping_.exposed();
   std::vector<double> agreed{static_cast<double>(no_number.empty() ? severity(report) : fatal),
-                             static_cast<double>(request_), report.frequency_bound, report.damping,
-                             !exposed.empty() && any_in_both(pushed_now(), exposed) ? 1.0 : 0.0};
+                             static_cast<double>(request_),
+                             report.frequency_bound,
+                             report.damping,
+                             !exposed.empty() && any_in_both(pushed_now(), exposed) ? 1.0 : 0.0,
+                             static_cast<double>(new_breaks())};
   const std::size_t own = agreed.size();
   contact_.append_to_agree(kinematics(), agreed);
   {
@@ -280,13 +284,19 @@ void CentralDifference::agree(const StepReport& report) {
   }
   agreed_request_ = static_cast<Request>(agreed[1]);
   request_ = Request::none;
-  length_.take(agreed[2], std::max(agreed[3], linear_viscosity(body_)));
+  length_.take(agreed[2], std::max(agreed[3], linear_viscosity(body_)), agreed[5] > 0);
   exposed_are_pushed_ = agreed[4] > 0;
   contact_.take_agreed(std::span(agreed).subspan(own), dt());
   const auto severity = static_cast<Severity>(agreed[0]);
   went_on_ = severity == passable;
   warning_.clear();
   if (severity != harmless) tell(report, no_number);
+}
+
+// The number of bonds of this rank's points that have broken since the last call.
+std::int64_t CentralDifference::new_breaks() {
+  const std::int64_t before = std::exchange(broken_, broken_bonds(body_));
+  return broken_ - before;
 }
 
 // Collective. Throws Error unless the run may continue with this report; else sets the warning.
@@ -335,6 +345,7 @@ void CentralDifference::serialize_steps(Archive& archive) {
   serialize_mirror_forces(archive, mirror_forces_);
   contact_.serialize(archive, kinematics(), dt());
   if (!archive.loading()) return;
+  new_breaks();
   restrict_conditions();
   for (MaterialBlock& block : body_.blocks) {
     if (block.in_rigid_motion) block.rest_frequency_bound = largest_frequency_bound(body_, block);

@@ -96,6 +96,7 @@ class CentralDifference {
   Severity severity(const StepReport& report) const;
   void agree(const StepReport& report);
   void tell(const StepReport& report, const std::string& no_number);
+  std::int64_t new_breaks();
 
   Body& body_;
   Conditions conditions_;
@@ -114,6 +115,7 @@ class CentralDifference {
   double time_;
   int most_substeps_ = 1;
   double updates_ = 0;
+  std::int64_t broken_ = 0;  // bonds of this rank's points, at the last agreement
   bool exposed_are_pushed_ = false;
   std::string warning_;
   bool went_on_ = false;

@@ -13,6 +13,10 @@ namespace {
 constexpr double renewal_growth = 1.1;
 constexpr int renewal_steps = 1000;
 
+// Breaks may raise ω without raising the largest frequency bound: of points beside others that have lost bonds. The
+// estimate after breaks, which costs some four steps, is renewed at once, but once in this number of steps in the mean.
+constexpr int steps_a_renewal = 100;
+
 constexpr double round_off = 1e-6;  // of a step: times are sums over up to millions of steps
 
 // When an estimate of the critical time step has been renewed, the step grows only if it can by this factor, and only
@@ -42,6 +46,8 @@ void StepLength::estimate(Body& body) {
   if (kept) body.force_states = std::move(*kept);
   bound_at_estimate_ = frequency_bound_;
   estimate_due_ = false;
+  bonds_broke_ = false;
+  ++estimates_;
   steps_since_estimate_ = 0;
 }
 
@@ -56,8 +62,8 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
   const double growth = control_.fixed_dt > critical(contact_stiffness) ? 1.01 : renewal_growth;
   const bool estimated = estimate_due_;
   if (estimated) estimate(body);
-  levels_due_ =
-      frequency_bound_ > growth * bound_at_estimate_ || steps_since_estimate_ >= renewal_steps || exposed_are_pushed;
+  levels_due_ = frequency_bound_ > growth * bound_at_estimate_ || steps_since_estimate_ >= renewal_steps ||
+                exposed_are_pushed || (bonds_broke_ && steps_ >= steps_a_renewal * estimates_);
   if (control_.fixed_dt > 0) {
     // The remainder that round-off leaves after the last full step is not a step of its own.
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
@@ -107,6 +113,8 @@ void StepLength::serialize(Archive& archive, const Body& body) {
   archive.number("frequency_bound", frequency_bound_);
   archive.number("bound_at_estimate", bound_at_estimate_);
   archive.number("damping", damping_);
+  archive.number("estimates", estimates_);
+  archive.number("bonds_broke", bonds_broke_);
   archive.number("levels_due", levels_due_);
   archive.number("estimate_due", estimate_due_);
   archive.number("levels_anew", levels_anew_);

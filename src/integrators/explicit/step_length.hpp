@@ -37,8 +37,10 @@ class StepLength {
   // Collective. Chooses the step after `time`, which does not pass `final_time`. `exposed_are_pushed`: contact acts on
   // points whose levels do not allow for it.
   void choose(double time, double final_time, double contact_stiffness, bool exposed_are_pushed, Body& body);
-  // Takes the largest frequency bound (1/s) and damping of a point on any rank at the end of a step.
-  void take(double frequency_bound, double damping) { frequency_bound_ = frequency_bound, damping_ = damping; }
+  // Takes the largest frequency bound (1/s) and damping of a point, and whether bonds broke, on any rank in a step.
+  void take(double frequency_bound, double damping, bool bonds_broke) {
+    frequency_bound_ = frequency_bound, damping_ = damping, bonds_broke_ = bonds_broke_ || bonds_broke;
+  }
   void count_step() { ++steps_, ++steps_since_estimate_; }
 
   // Time-step levels: whether to choose them anew; the data of the present step that they need; the result.
@@ -61,8 +63,9 @@ class StepLength {
   double bound_of_step_ = 0;                                       // 1/s, the bound for which levels were chosen, and
   double step_of_bound_ = 0;                                       // s, the step that resulted
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
-  int steps_ = 0, steps_since_estimate_ = 0;
+  int steps_ = 0, steps_since_estimate_ = 0, estimates_ = 0;
   bool levels_due_ = true, estimate_due_ = true, levels_anew_ = false;
+  bool bonds_broke_ = false;  // since the last estimate
 };
 
 }  // namespace strut

@@ -171,30 +171,6 @@ TEST(Cracks, FacesOfGradualOnesThatMayTouchAreWarnedOf) {
   EXPECT_EQ(told_with("Critical Stretch", "Self Contact").find(warning), std::string::npos);
 }
 
-// Contact between points presses points that fail under pressure, however near to each other they are.
-TEST(Cracks, PointsThatFailWithContactBetweenPointsAreWarnedOf) {
-  const auto told_with = [](const std::string& damage, const std::string& contact) {
-    Parts parts = flying();
-    parts.materials = copper(key("Yield Stress", "90e6"));
-    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
-                                        key("Damage Model", "breaks"));
-    parts.damage = section("breaks", damage);
-    parts.contact = section("Models", section("m", contact)) +
-                    section("Interactions", section("Self Contact", key("Contact Model", "m")));
-    const RunFolder folder;
-    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
-  };
-  const std::string fails = key("Damage Model", "Plastic Strain") + key("Failure Strain", "0.3"),
-                    breaks = key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.3"),
-                    points = key("Contact Model", "Short Range Force") + key("Contact Radius", "1e-3") +
-                             key("Spring Constant", "1e11"),
-                    surface = key("Contact Model", "Surface");
-  const std::string warning = "points that fail while they are pressed together";
-  expect_told(told_with(fails, points), {"WARNING: block 'bar'", warning});
-  EXPECT_EQ(told_with(fails, surface).find(warning), std::string::npos);
-  EXPECT_EQ(told_with(breaks, points).find(warning), std::string::npos);
-}
-
 TEST(Improbable, HeatsAndHardeningInOtherUnitsAreWarnedOf) {
   const auto heating = [](const std::string& heat) { return section("Heating", key("Specific Heat", heat)); };
   expect_told(told_of_copper(heating("0.383")), {"has a Specific Heat of 0.383 J/(kg K)"});

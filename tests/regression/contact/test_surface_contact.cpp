@@ -6,7 +6,6 @@
 
 #include "mesh/cells.hpp"
 #include "regression/bodies.hpp"
-#include "regression/checkpoints.hpp"
 
 namespace strut::regression {
 namespace {
@@ -185,44 +184,6 @@ TEST(SurfaceContact, LegsOfAHairpinDoNotPassThroughEachOther) {
   // contact between surfaces that turn by 10 % of a radian while they press each other (0.3 % without contact).
   EXPECT_GT(run.world().min(high) - run.world().max(low), 0.4 * h);
   EXPECT_LT(worst, 0.02);
-}
-
-// A block whose points fail while two walls crush it.
-Parts crushed() {
-  Parts parts;
-  parts.materials = copper(key("Yield Stress", "193e6"));
-  parts.damage = section("tearing", key("Damage Model", "Plastic Strain") + key("Failure Strain", "0.3"));
-  parts.blocks = section("metal", key("Block Names", "bar") + key("Material", "copper") + key("Horizon", "1.75e-3") +
-                                      key("Damage Model", "tearing"));
-  parts.contact = surface_contact({{"bar", "bar"}}, key("Friction Coefficient", "0.2"));
-  const auto wall = [](const std::string& point, const std::string& normal, const std::string& motion) {
-    return key("Type", "Rigid Plane") + key("Point", point) + key("Normal", normal) +
-           key("Friction Coefficient", "0.2") + motion;
-  };
-  parts.conditions = section("top", wall("0 0 8e-3", "0 0 -1", key("Travel Z", "-20*t"))) +
-                     section("bottom", wall("0 0 0", "0 0 1", ""));
-  parts.times = key("Final Time", "160e-6");
-  parts.verlet = key("Safety Factor", "0.5");
-  return parts;
-}
-
-// Points that fail lie nearer to each other than points that touch. A contact that pressed as soon as their bonds break
-// would make energy: 0.4 % of the work here.
-TEST(SurfaceContact, PointsThatFailUnderPressureAreNotThrown) {
-  const RunFolder folder(Lattice{.nx = 4, .ny = 4, .nz = 8});
-  Simulation run(folder, crushed());
-  double worst = 0;
-  const Ledger end = run.go([&](const Ledger& now) { worst = std::max(worst, now.balance_error); });
-  EXPECT_GT(end.fracture, 0);
-  EXPECT_GT(-end.contact, 0.005 * end.tools);  // the pieces rub each other
-  EXPECT_LT(worst, 1e-3);                      // of steps of half the critical one
-}
-
-// After a checkpoint the contact counts the bonds that the last search has counted, and no others: the same bits.
-TEST(SurfaceContact, PointsThatFailGoOnAfterACheckpoint) {
-  const RunFolder folder(Lattice{.nx = 4, .ny = 4, .nz = 8});
-  const auto works = expect_same_after_checkpoints(folder, crushed(), &Ledger::contact, 50, 20);
-  EXPECT_GT(works.size(), 30 * 50u);
 }
 
 // Voxels of a sixth of a spacing gathered in cells of one, around the middle.
