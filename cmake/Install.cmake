@@ -16,7 +16,7 @@ if(STRUT_PYTHON)
   # The folder of Debian's Python 3, whatever its minor version; elsewhere it goes into PYTHONPATH, or where a user puts it.
   set(STRUT_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "folder of Python's packages in the prefix")
   install(TARGETS strut_python LIBRARY DESTINATION ${STRUT_PYTHON_FOLDER}/strut)
-  install(DIRECTORY tools/python/strut DESTINATION ${STRUT_PYTHON_FOLDER} FILES_MATCHING PATTERN "*.py")
+  install(DIRECTORY tools/python/strut DESTINATION ${STRUT_PYTHON_FOLDER} FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 endif()
 
 # The program's --help as a man page, and as a script for the shell's completion.

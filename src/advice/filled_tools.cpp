@@ -21,7 +21,9 @@ std::string filled_tools(const Situation& situation) {
     const Vector offset = tools[n].offset(situation.start);
     double inside = 0, deepest = 0;
     for (const int i : tools[n].points) {
-      const double depth = -surface(tools[n].shape, domain.reference(i) - offset).gap;
+      const Vector place = scene.body.current(i) - offset;
+      const auto met = [&](const auto& shape) { return tools[n].met_by(i, shape, place).gap; };
+      const double depth = -std::visit(met, tools[n].shape);
       if (depth <= least_depth * domain.cloud.spacings[i]) continue;
       ++inside;
       deepest = std::max(deepest, depth);

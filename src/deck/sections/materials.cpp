@@ -38,7 +38,8 @@ const OptionalKey<double> stabilization_coefficient(
     {.name = "Stabilization Coefficient",
      .range = not_negative,
      .meaning = "Stiffness of the springs in units of (λ + 2μ)/(tr K/3), K the shape tensor. Default 0.01; 0.3 in "
-                "blocks whose bonds break by stretch."});
+                "blocks whose bonds break by stretch; in elastomers 4 μ/(λ + 2μ), Silling a quarter of it, between "
+                "these two."});
 
 const RealKey linear_viscosity(
     {.name = "Linear Viscosity",

@@ -18,6 +18,7 @@ constexpr int most_turns = 6;            // turns of relaxation and Newton if Ne
 constexpr int turn = 125;                // iterations of relaxation in each turn, per iteration of Newton in the deck
 constexpr int most_rounds = 30;          // of the multipliers of tools, per step
 constexpr int easily = 6;                // iterations of Newton per round up to which the next step may be longer
+constexpr double growth = 2;             // of the next step, at most
 constexpr double round_off = 1e-9;
 
 // A load step after which a bond is stretched by more than this over its critical stretch is cut, because the bond
@@ -53,11 +54,12 @@ double QuasiStatic::bytes(const Body& body, const QuasiStaticControl& control) {
   return committed + newton_bytes * body.owned() + TangentFactor(body).bytes();
 }
 
-// Extrapolates: points that moved in the last step continue at their rate.
+// Extrapolates: points that moved in the last step continue at their rate, but not in a step far longer than that, as
+// that of a run which starts from another one's short steps.
 void QuasiStatic::extrapolate() {
-  if (last_dt_ == 0) return equilibrium_.follow_sides();
+  const double factor = last_dt_ > 0 ? dt_ / last_dt_ : growth + 1;
+  if (factor > growth) return equilibrium_.follow_sides();
   Body& body = equilibrium_.body();
-  const double factor = dt_ / last_dt_;
   for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() += factor * last_step_[i].array();
 }
 
@@ -145,11 +147,12 @@ void QuasiStatic::serialize_steps(Archive& archive) {
 
 void QuasiStatic::begin_strained(bool goes_on) {
   if (!goes_on) equilibrium_.begin_strained(time_);
+  dt_ = longest_;
   put_in_ += ledger().gained;
 }
 
 bool QuasiStatic::advance() {
-  dt_ = std::min(dt_, final_time_ - time_);
+  dt_ = std::min({dt_, longest_, final_time_ - time_});
   for (;;) {
     const Search search = attempt();
     if (search.converged && (equilibrium_.largest_stretch() <= most_stretch || dt_ <= finest_break * longest_)) {
@@ -194,7 +197,7 @@ void QuasiStatic::commit(Search search) {
   const double left = final_time_ - time_ - dt_;
   time_ = left > round_off * longest_ ? time_ + dt_ : final_time_;
   tell(search, broken);
-  if (!control_.with_tangent || was_easy) dt_ = std::min(2 * dt_, longest_);
+  if (!control_.with_tangent || was_easy) dt_ = std::min(growth * dt_, longest_);
 }
 
 // Bonds beyond their limit break at once, while conditions rest; the body goes to its next equilibrium, in which others

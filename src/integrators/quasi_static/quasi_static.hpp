@@ -42,7 +42,8 @@ class QuasiStatic {
   // Collective. The same without the body and its broken bonds.
   void serialize_search(Archive& archive);
   // Collective, for a body that begins in the state of another run: its energy counts as put in before. `goes_on`: the
-  // last load step has been restored; else the forces that hold the body fade over the first one.
+  // last load step has been restored; else the forces that hold the body fade over the first one. Load steps are as
+  // long as this run has them.
   void begin_strained(bool goes_on);
 
   Ledger ledger();                                                                          // collective

@@ -271,6 +271,25 @@ class Starts(InFolder):
                     # two steps take the whole load off, by the rule of the trapezoid.
                     self.assertLess(run.history["Balance_Error"][-1], 0.05 if what == "at rest" else 1e-3)
 
+    def test_a_tool_meets_the_body_where_it_is(self):
+        """The uppermost points, half a spacing below the top, have gone down by 0.8 mm. A warning is of a tool that they are in."""
+        def between(way):
+            return {"floor": {"Type": "Rigid Plane", "Point": [0, 0, 0], "Normal": [0, 0, 1]},
+                    "plate": {"Type": "Rigid Plane", "Point": [0, 0, 8 * SPACING], "Normal": [0, 0, -1], "Travel Z": way}}
+
+        deck = but(block.deck(), History={"Frequency": 1})
+        slow = {"Final Time": 1.0, "QuasiStatic": {"Number of Load Steps": 4}}
+        strut.run(but(deck, Boundary_Conditions=between("-0.8e-3*t"), Solver=slow, Restart={"Filename": "slow.restart"}), block.mesh())
+        inside = "19 points are inside of the tool 'plate' at the start, up to 0.0005 m deep"
+        short = {"Final Time": 1e-7, "Verlet": {"Fixed dt": 1e-8}}
+        for way, solver, time, told in (("-0.8e-3 - 20*t", short, 0.0, ""), ("table(t, 0, 0, 1, -0.8e-3)", {**short, "Final Time": 1 + 1e-7}, 1.0, ""),
+                                        ("-1.8e-3 - 20*t", short, 0.0, inside)):
+            with self.subTest(way, time=time):
+                second = start(but(deck, Boundary_Conditions=between(way), Solver=solver), "slow.restart", time)
+                log = strut.Run(second, block.mesh()).log
+                self.assertIn(told, log)
+                self.assertEqual("inside of the tool" in log, told == inside, log)
+
     def test_what_cannot_start_is_refused_by_name(self):
         deck = block.deck(Output=block.output("first.e"))
         ended(deck, 5, block.mesh())

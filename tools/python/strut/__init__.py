@@ -6,6 +6,9 @@
     run = strut.run(deck, block)
     run.fields["Cauchy_Stress"], run.history["Time"]
 
+curve, stiffness, picture and convergence are the tools of the same names (convergence: study; tools/README.md): smooth=3
+is their option --smooth 3, a list several words, True an option without a value. They return None but on rank 0.
+
 On several ranks: mpirun -n 4 python3 study.py, with or without mpi4py. All calls that take a deck or a run are made by
 all ranks.
 """
@@ -21,10 +24,19 @@ from .tools import convergence, curve, picture, stiffness
 __all__ = ["Deck", "Error", "Run", "check", "convergence", "curve", "mesh", "picture", "recipe", "run", "set_threads",
            "stiffness", "version", "voxels"]
 
-version = _core.version
-set_threads = _core.set_threads  # of each rank, as strut --threads
+
+def version():
+    """The version of strut, and how it was built."""
+    return _core.version()
+
+
+def set_threads(count):
+    """The number of threads of each rank, as strut --threads."""
+    _core.set_threads(count)
+
 
 Error.__module__ = "strut"
+Error.__doc__ = "What is wrong with a deck, a mesh, a run or the words of a call, where, and what was expected; on all ranks."
 Error.problems = property(lambda error: [line.strip() for line in str(error).split("\n")[1:] if line.startswith("  ")],
                           doc="of a deck, all of them: path, value, what was expected")
 

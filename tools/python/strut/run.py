@@ -78,10 +78,10 @@ class Run:
         if "Restart" not in self.deck and not continued:  # without that section the program writes one at times
             self.deck = Deck({**self.deck, "Restart": {"Enabled": False}}, self.deck.name)
         self.mesh, self.told = mesh, Told(progress)
-        self.core = self.telling(_core.Run, self.deck.to_xml(), self.deck.name, mesh, continued, self.told)
+        self.core = self._telling(_core.Run, self.deck.to_xml(), self.deck.name, mesh, continued, self.told)
         live.add(self)
 
-    def telling(self, action, *words):
+    def _telling(self, action, *words):
         try:
             return action(*words)
         finally:
@@ -94,9 +94,10 @@ class Run:
             steps = whole_number(steps, "steps", 0)
         if until is not None and not (isinstance(until, (int, float, np.number)) and np.isfinite(until)):
             raise _core.Error(f"until: {until!r}; expected a time, in s")
-        return self.telling(self.core.advance, steps, until)
+        return self._telling(self.core.advance, steps, until)
 
     def advance_to(self, time):
+        """To the first step at or after a time, s. True if steps are left."""
         return self.advance(until=time)
 
     def watch(self, callback, every, until=None):
@@ -120,10 +121,10 @@ class Run:
     def end(self):
         """Ends the run early, after one more step: with a last frame, and a checkpoint if the deck has one."""
         if not self.has_ended:
-            self.telling(self.core.end)
+            self._telling(self.core.end)
 
     time = property(lambda self: self.core.time, doc="s")
-    steps = property(lambda self: self.core.steps)
+    steps = property(lambda self: self.core.steps, doc="made so far")
     has_ended = property(lambda self: self.core.has_ended, doc="early or not")
     is_over = property(lambda self: self.core.is_over, doc="at the final time")
     log = property(lambda self: self.told.text, doc="what the run has said so far (on rank 0)")
@@ -131,7 +132,7 @@ class Run:
     ids = property(lambda self: self.core.ids, doc="of this rank's points: their places in the mesh, from 0")
     blocks = property(lambda self: np.array(self.core.blocks), doc="of this rank's points: the names of their blocks")
     positions = property(lambda self: self.core.positions, doc="of this rank's points, now, m")
-    history = property(lambda self: History(*self.core.history()), doc="of a deck with the section History")
+    history = property(lambda self: History(*self.core.history()), doc="{column: array} so far, of a deck with the section History; .units, .to_pandas()")
 
     def whole(self, name):
         """A field of all points in the order of the mesh, on rank 0 (None elsewhere); NaN for points that were dropped."""
