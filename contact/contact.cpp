@@ -251,17 +251,17 @@ void Contact::foresee(const Kinematics& kinematics, double dt) {
   if (any()) stiffness_ = kinematics.domain.communicator.max(stiffness_);
 }
 
-void Contact::add_trial_forces(const Kinematics& kinematics, std::span<const Vector> way,
+void Contact::add_trial_forces(const Kinematics& kinematics, std::span<const Vector> increments,
                                std::vector<Vector>& force_density) {
   if (!any()) return;
   check_where_due(kinematics, 0);
-  add_forces(kinematics, 0, {.of = way, .is_trial = true}, force_density);
+  add_forces(kinematics, 0, {.of = increments, .is_trial = true}, force_density);
 }
 
-double Contact::friction_work_of_trial(std::span<const Vector> way) const {
+double Contact::friction_work_of_trial(std::span<const Vector> increments) const {
   double work = 0;
   for (const ContactPair& pair : contact_pairs_) {
-    if (pair.surfaces) work += pair.surfaces->friction_work(pair.pairs, pair.friction, way);
+    if (pair.surfaces) work += pair.surfaces->friction_work(pair.pairs, pair.friction, increments);
   }
   return work;
 }

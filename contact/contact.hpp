@@ -22,7 +22,7 @@ struct Interaction {
   Model model;
 };
 
-// Work of friction, J: the halves of an impulse's work by the velocities before and after the impulse.
+// Work of friction, J: half of the impulse times the velocity before it, and half of it times the velocity after it.
 struct FrictionWork {
   double before = 0, after = 0;
 };
@@ -39,21 +39,23 @@ class Contact {
   // led here (s), 0 at the start.
   void add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density);
 
-  // Collective, after the forces at the start. Includes in stiffness() the points that come to touch in a first step of
-  // dt (s) by the velocities of `kinematics`.
+  // Collective, after the forces at the start. Adds to stiffness() the points that would touch within a first step of
+  // dt (s) at the velocities of `kinematics`.
   void foresee(const Kinematics& kinematics, double dt);
 
-  // add_forces for a trial of an equilibrium: friction (of surfaces) starts from the last commit; `way`: displacement
-  // increments of the owned points since then, m.
-  void add_trial_forces(const Kinematics& kinematics, std::span<const Vector> way, std::vector<Vector>& force_density);
+  // add_forces for a trial of an equilibrium: friction (of surfaces) starts from the last commit; `increments`: of
+  // the displacements of the owned points since then, m.
+  void add_trial_forces(const Kinematics& kinematics, std::span<const Vector> increments,
+                        std::vector<Vector>& force_density);
   // Call it before the last trial is committed: work of friction since the last commit on this rank's points, J.
-  double friction_work_of_trial(std::span<const Vector> way) const;
+  double friction_work_of_trial(std::span<const Vector> increments) const;
   void commit();
 
   // Collective, after add_forces. Adds the tangent stiffness of touching points, times a field of the owned points, to
   // result (N/m times the field's unit), with the friction of trials.
   void add_stiffness(std::span<const Vector> field, std::span<Vector> result);
-  void add_springs(std::span<Tensor> springs) const;  // its diagonal blocks: each point by its own motion, N/m
+  // Adds the diagonal blocks of that tangent: the force on each point by its own displacement, N/m.
+  void add_springs(std::span<Tensor> springs) const;
 
   // Collective. Saves or restores the state that forces depend on. On restoring, `kinematics` and `dt` are those of the
   // last forces; pairs are searched for anew, which does not change their forces.
@@ -81,8 +83,7 @@ class Contact {
   // velocities from `before` to `after`.
   FrictionWork friction_work(double impulse_time, std::span<const Vector> before, std::span<const Vector> after) const;
 
-  // Adds this rank's part of the force on points by the couples of friction about images of points, N, to that of each
-  // of domain.mirrors.
+  // Adds this rank's forces on mirror images of points by the couples of friction, N, to those of domain.mirrors.
   void add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const;
 
   // Adds `amount` to the entry of each of this rank's points on which the last contact forces, of surfaces or points,

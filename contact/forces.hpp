@@ -26,10 +26,10 @@ struct DeepestPenetration {
 struct ForceResult {
   DeepestPenetration deepest;
   double energy = 0;  // stored by the touching pairs, J: half for each end
-  // A bound of ω² of the touching points, 1/s²: the largest eigenvalue of any Σ k (1/m_i + 1/√(m_i m_j)) n⊗n, because
-  // (n·(x_i − x_j))² ≤ (1 + √(m_i/m_j)) (n·x_i)² + (1 + √(m_j/m_i)) (n·x_j)² for a pair. k also bounds the next step:
-  // it is the stiffness at twice the present overlap, or after another step like the last one if that is more. Pairs
-  // that come to touch in such a step are included.
+  // A bound of ω² of the touching points, 1/s²: the largest eigenvalue over all points of Σ k (1/m_i + 1/√(m_i m_j))
+  // n⊗n, because (n·(x_i − x_j))² ≤ (1 + √(m_i/m_j)) (n·x_i)² + (1 + √(m_j/m_i)) (n·x_j)² for a pair. k also bounds the
+  // next step: it is the stiffness at twice the present overlap, or after another step like the last one if that is
+  // more. Pairs that come to touch in such a step are included.
   double stiffness = 0;
 };
 

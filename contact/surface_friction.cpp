@@ -123,11 +123,11 @@ std::vector<Vector> Surfaces::committed_friction() const {
 }
 
 double Surfaces::friction_work(const Pairs& pairs, const std::vector<Vector>& friction,
-                               std::span<const Vector> way) const {
+                               std::span<const Vector> increments) const {
   double work = 0;
   for (std::size_t k = 0; k < friction.size(); ++k) {
     const Vector before = friction_before_.empty() ? Vector::Zero() : friction_before_[places_[k]];
-    work += 0.5 * (before + friction[k]).dot(way[pairs.owned[k]]);
+    work += 0.5 * (before + friction[k]).dot(increments[pairs.owned[k]]);
   }
   return work;
 }

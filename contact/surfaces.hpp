@@ -70,10 +70,12 @@ class Surfaces {
   void add_friction(const Kinematics& kinematics, const Sliding& sliding, const SurfaceLaw& law, double coefficient,
                     Pairs& pairs, Couples& couples, std::vector<Vector>& force_density, std::vector<Vector>& friction);
   // commit makes the state of the last trial the start of the next ones. friction_work, before it: the work of friction
-  // since the last commit by the mean of the forces at both ends, J; `way`: displacement of owned points since then, m.
+  // since the last commit by the mean of the forces at both ends, J; `increments`: of the displacements of owned points
+  // since then, m.
   void commit(const std::vector<Vector>& friction);
   std::vector<Vector> committed_friction() const;  // on the owned points of the last search, N
-  double friction_work(const Pairs& pairs, const std::vector<Vector>& friction, std::span<const Vector> way) const;
+  double friction_work(const Pairs& pairs, const std::vector<Vector>& friction,
+                       std::span<const Vector> increments) const;
 
   void add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const;
   void add_springs(const Pairs& pairs, std::span<Tensor> springs) const;

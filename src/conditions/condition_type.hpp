@@ -37,7 +37,7 @@ enum class Stage { forces, drags, motions, planes, tools };
 // contact with friction, for rigid tools only; `impossible`: it has no meaning in equilibria, which is an error.
 enum class InEquilibria { load, hold, tool, impossible };
 
-// The points that move at times between whole steps: at those of `level`, which come every 2^−level of the step.
+// The points that move in substeps of dt/2^level.
 struct MovingPoints {
   const std::vector<std::uint8_t>& levels;  // of owned points: the time-step levels of their motion
   int level;
@@ -100,7 +100,7 @@ concept PredictsVelocities = requires(const T& condition, double t, double momen
 };
 
 // All other stages.
-//   change_velocities  changes velocities from those that the forces at update.t leave to those that it allows, and
+//   change_velocities  changes the velocities after the forces at update.t to those that the condition allows, and
 //                      records each change. update.steps.of(i) is the time for which the velocity then moves point i:
 //                      the next step, or the point's own substep; of_impulse(i) is the time for which forces have
 //                      acted
@@ -115,7 +115,7 @@ concept ChangesVelocities = requires(T& condition, VelocityUpdate& update, const
 };
 
 // InEquilibria::hold.
-//   held_directions  the held directions of its points, which are at the start of the load step from t over dt (s)
+//   held_directions  the held directions of its points in the load step from t to t + dt (s)
 template <class T>
 concept HoldsDirections = requires(const T& condition, const Body& body, double t, double dt) {
   { condition.held_directions(body, t, dt) } -> std::same_as<std::vector<HeldDirection>>;

@@ -57,8 +57,8 @@ void change_velocities(Conditions& conditions, double t, const PointTimeSteps& s
 // The conditions that act at times between whole steps.
 Conditions in_substeps(const Conditions& conditions, const MovingPoints& moving);
 
-// The initial velocities of owned points; where conditions impose velocities at time t, these, as their mean over
-// `moment` (s).
+// Velocities of owned points at time t: those that conditions impose, as their mean over `moment` (s), else the initial
+// ones.
 std::vector<Vector> predicted_velocities(const Conditions& conditions, double t, double moment, const Body& body);
 
 // Throws Error if a condition has no meaning without inertia.
@@ -67,9 +67,9 @@ void check_equilibria_possible(const Conditions& conditions);
 // Held directions in the load step from t over dt (s), for points that are at its start.
 std::vector<HeldDirection> held_directions(const Conditions& conditions, const Body& body, double t, double dt);
 
-// The kinetic energy of tools with a mass (J), the same on all ranks; the state of all tools in a checkpoint, at the
-// group of all owned points.
+// The kinetic energy of tools with a mass, J, the same on all ranks.
 double kinetic_energy_of_tools(const Conditions& conditions);
+// Saves or restores the state of all tools, at the group of all owned points.
 void serialize_tools(Archive& archive, Conditions& conditions, int owned);
 // The same for their reaches alone, "tool_N_reach", N the tool's index in the deck.
 void serialize_reaches(Archive& archive, Conditions& conditions);

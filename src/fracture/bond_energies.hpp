@@ -30,7 +30,7 @@ class BondEnergies {
   bool any() const { return !points_.empty(); }
   bool any_of(std::size_t block) const { return any() && concerned_[block]; }
 
-  // Before the points of a step get their next expansion: takes the one that the force states have.
+  // Call it before a step changes the expansions: stores those of the present force states.
   void take_expansions(const Body& body);
   // At the start of a step, stores the force states of the last sum of forces. Returns a flag for each owned point and
   // ghost whose a changed by more than a relative displacement of two points by `travel` (m) explains: bonds of it have

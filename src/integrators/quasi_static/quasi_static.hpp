@@ -27,7 +27,7 @@ class QuasiStatic {
   int iterations() const { return iterations_; }    // of this run, including failed attempts
   int evaluations() const { return evaluations_; }  // of the forces, or of the tangent times a field
   const contact::Contact& contact() const { return equilibrium_.contact(); }
-  // When it is over, for steps that go on from here: contact remembers from where bodies touch.
+  // Call it after the last load step: hands contact, which remembers where bodies touch, to explicit steps.
   contact::Contact take_contact() { return equilibrium_.take_contact(); }
   std::optional<Fracture> take_fracture() { return equilibrium_.take_fracture(); }
   const Conditions& conditions() const { return equilibrium_.conditions(); }
