@@ -340,7 +340,9 @@ TEST(PeriodicContact, OfSurfacesIsThatOfALongPlate) {
   const std::vector<Vector> some = run_of(one, parts);
   parts.conditions = flight + sides("x", "0", "18e-3");
   const std::vector<Vector> all = run_of(three, parts);
-  if (one.world.rank() == 0) EXPECT_LT(apart(some, all), 1e-9);  // round-off of places three times as far
+  if (one.world.rank() == 0) {
+    EXPECT_LT(apart(some, all), 1e-9);  // round-off of places three times as far
+  }
 }
 
 // ---- Bonds that break -----------------------------------------------------------------------------------------------
