@@ -271,6 +271,19 @@ class Starts(InFolder):
                     # two steps take the whole load off, by the rule of the trapezoid.
                     self.assertLess(run.history["Balance_Error"][-1], 0.05 if what == "at rest" else 1e-3)
 
+    def test_the_criterion_of_points_that_may_fail_stays(self):
+        """How far they are, the plastic strain over ε_f, would go on in parts of another one. A bond has no such memory."""
+        deck = block.deck(Blocks={"block": {**block.deck()["Blocks"]["block"], "Damage Model": "one"}})
+        for first, second, refused in (({"Damage Model": "Plastic Strain", "Failure Strain": 0.5}, {"Failure Strain": 0.05}, "Failure Strain: 0.5 there, 0.05 here"),
+                                       ({"Damage Model": "Critical Stretch", "Critical Stretch": 0.5}, {"Critical Stretch": 0.4}, "")):
+            ended(but(deck, Damage_Models={"one": first}), 3, block.mesh())
+            again = start(but(deck, Damage_Models={"one": {**first, **second}}), "first.restart")
+            if refused:
+                with self.assertRaisesRegex(strut.Error, refused):
+                    strut.Run(again, block.mesh())
+            else:
+                strut.Run(again, block.mesh())
+
     def test_a_tool_meets_the_body_where_it_is(self):
         """The uppermost points, half a spacing below the top, have gone down by 0.8 mm. A warning is of a tool that they are in."""
         def between(way):
@@ -301,6 +314,8 @@ class Starts(InFolder):
         for sections, mesh, expected in (
             ({"Materials": {"metal": {**metal, "Yield Stress": 1e8}}}, block.mesh(), "Materials > metal > Yield Stress: 2"),
             ({"Blocks": {"block": {**foam, "Horizon Factor": 2.1}}}, block.mesh(), "Blocks > block > Horizon Factor: 1.75 there, 2.1"),
+            ({"Materials": {"metal": {**metal, "Hardening": {"Type": "Linear", "Hardening Modulus": 1e9}}}}, block.mesh(),
+             "1 problem\n  Materials > metal > Hardening: nothing there, a section here"),
             ({}, other, "of another mesh: block 0 (block): 152 points there, 160 here"),
             ({"Boundary Conditions": {**conditions, "side": plane}}, block.mesh(), "Boundary Conditions > side: not there"),
             ({"Boundary Conditions": {**conditions, "top": top}}, block.mesh(), "Boundary Conditions > top > Value"),
