@@ -277,6 +277,21 @@ class Starts(InFolder):
                     # two steps take the whole load off, by the rule of the trapezoid.
                     self.assertLess(run.history["Balance_Error"][-1], 0.05 if what == "at rest" else 1e-3)
 
+    def test_new_contact_of_bodies_that_are_inside_each_other_is_told(self):
+        """The upper bar has gone down by its gap, and by a fifth of a spacing more."""
+        deck = scene("impact")
+        deck["Contact"]["Models"]["touch"] = {"Contact Model": "Surface"}
+        for depth, told in ((-0.1, False), (0.2, True)):
+            with self.subTest(depth):
+                way = restarts.GAP + depth * restarts.SPACING
+                fall = {"fall": {"Type": "Prescribed Displacement", "Node Set": "block_2", "Coordinate": "z", "Value": f"-{way}*t"},
+                        "rest": {"Type": "Prescribed Displacement", "Node Set": "block_1", "Coordinate": "xyz", "Value": "0"}}
+                first = but(deck, Boundary_Conditions=fall, Contact=None, History={"Frequency": 1},
+                            Solver={"Final Time": 1.0, "QuasiStatic": {"Number of Load Steps": 1}})
+                strut.run(but(first, Restart={"Filename": "first.restart"}))
+                second = start(first, "first.restart", Contact=deck["Contact"], Boundary_Conditions={}, Solver={"Final Time": 1e-6})
+                self.assertEqual("stores" in strut.Run(second).log, told)
+
     def test_the_criterion_of_points_that_may_fail_stays(self):
         """How far they are, the plastic strain over ε_f, would go on in parts of another one. A bond has no such memory."""
         deck = block.deck(Blocks={"block": {**block.deck()["Blocks"]["block"], "Damage Model": "one"}})
