@@ -149,6 +149,7 @@ void Run::Parts::make_solver(StartState* state) {
     state->go_on(*steps);
   } else {
     make(times.initial_time);
+    if (state) say(communicator, state->overlaps(steps->contact(), scene->body));
   }
   if (writers->history.has_reactions()) steps->gather_reactions(static_cast<int>(deck.conditions.size()));
 }

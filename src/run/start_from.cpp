@@ -209,6 +209,22 @@ bool StartState::takes_of_steps(const std::string& name) const {
          !column.starts_with("last_");
 }
 
+std::string StartState::overlaps(const contact::Contact& contact, const Body& body) const {
+  constexpr double worth_telling = 0.01;  // of the energy that is there
+  if (changes_.same_contact || !contact.any()) return "";
+  double kinetic = 0;
+  for (int i = 0; i < body.owned(); ++i) kinetic += 0.5 * body.mass(i) * body.velocity[i].squaredNorm();
+  const Communicator& communicator = body.domain.communicator;
+  const double there = communicator.sum(kinetic) + stored_energies(body).elastic;
+  const double by_contact = communicator.sum(contact.energy());
+  if (!(by_contact > worth_telling * there)) return "";
+  std::ostringstream text;
+  text << "WARNING: contact begins here between bodies that are inside each other, and stores " << by_contact
+       << " J at once, beside " << there
+       << " J that are there: it throws them apart; expected this contact in the other run, too\n";
+  return text.str();
+}
+
 template <class Solver>
 void StartState::take_steps(Solver& solver, void (Solver::*serialize)(Archive&)) {
   Snapshot snapshot;

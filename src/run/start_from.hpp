@@ -24,6 +24,9 @@ class StartState {
   // solver of the scene must then be ToBeRestored, and gets the other one's steps.
   bool goes_on() const { return goes_on_; }
   void go_on(CentralDifference& solver);
+  // Warns of energy out of nothing: what contact that begins here, after its first forces, stores in bodies that are
+  // inside each other.
+  std::string overlaps(const contact::Contact& contact, const Body& body) const;
   // Call it whether or not steps go on.
   void begin(QuasiStatic& solver);
 

@@ -53,10 +53,12 @@ std::size_t mark_numbers(const std::vector<int>& numbers, std::uint64_t bit, Poi
   return found;
 }
 
-// Collective. Marks the point that is nearest to a place; of several the one that the mesh has first.
-void mark_nearest(const Vector& place, std::uint64_t bit, PointCloud& cloud, const Communicator& communicator) {
+// Collective. Marks the point whose position(i) is nearest to a place; of several the one that the mesh has first.
+template <class Position>
+void mark_nearest(const Vector& place, std::uint64_t bit, const Position& position, PointCloud& cloud,
+                  const Communicator& communicator) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  const auto distance = [&](std::size_t i) { return (cloud.positions[i] - place).squaredNorm(); };
+  const auto distance = [&](std::size_t i) { return (position(i) - place).squaredNorm(); };
   double nearest = none, first = none;
   for (std::size_t i = 0; i < cloud.size(); ++i) nearest = std::min(nearest, distance(i));
   nearest = communicator.min(nearest) * (1 + 1e-9);
@@ -207,16 +209,13 @@ void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, co
     if (cloud.set_names.size() >= 64) return problems.add(path_of(set), "mesh and deck have more than 64 node sets");
     const std::uint64_t bit = std::uint64_t{1} << cloud.set_names.size();
     cloud.set_names.push_back(set.name);
-    if (set.nearest) {
-      mark_nearest(*set.nearest, bit, cloud, communicator);
-      continue;
-    }
     if (set.numbers) {
       add_numbered_set(set, bit, cloud, communicator, problems);
       continue;
     }
     if (set.nearest) {
-      mark_nearest(*set.nearest, bit, cloud, communicator);
+      mark_nearest(
+          *set.nearest, bit, [&](std::size_t i) { return cloud.positions[i]; }, cloud, communicator);
       continue;
     }
     try {
@@ -227,15 +226,35 @@ void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, co
   }
 }
 
+namespace {
+
+std::uint64_t bit_of(const deck::NodeSet& set, const PointCloud& cloud) {
+  const auto place = std::find(cloud.set_names.begin(), cloud.set_names.end(), set.name);
+  return std::uint64_t{1} << (place - cloud.set_names.begin());
+}
+
+}  // namespace
+
+void find_probes_again(const std::vector<deck::NodeSet>& sets, Domain& domain) {
+  for (const deck::NodeSet& probe : sets) {
+    if (!probe.nearest) continue;
+    const std::uint64_t bit = bit_of(probe, domain.cloud);
+    const auto holds = [bit](std::uint64_t sets_of_point) { return (sets_of_point & bit) != 0; };
+    if (domain.communicator.max(std::ranges::any_of(domain.cloud.sets, holds) ? 1.0 : 0.0) > 0) continue;
+    const auto position = [&domain](std::size_t i) { return domain.reference(static_cast<int>(i)); };
+    mark_nearest(*probe.nearest, bit, position, domain.cloud, domain.communicator);
+  }
+}
+
 std::string places_of_probes(const deck::Deck& deck, const Domain& domain) {
   std::string lines;
   const PointCloud& cloud = domain.cloud;
   for (const deck::NodeSet& probe : deck.node_sets) {
     if (!probe.nearest) continue;
-    const auto bit = std::find(cloud.set_names.begin(), cloud.set_names.end(), probe.name) - cloud.set_names.begin();
+    const std::uint64_t bit = bit_of(probe, cloud);
     std::ostringstream mine;
     for (int i = 0; i < domain.owned; ++i) {
-      if ((cloud.sets[i] >> bit & 1) == 0) continue;
+      if ((cloud.sets[i] & bit) == 0) continue;
       const Vector X = domain.reference(i);
       const double away = (X - *probe.nearest).norm();
       mine << (away > cloud.spacings[i] ? "WARNING: " : "") << "the probe '" << probe.name << "' is " << word(cloud.at)

@@ -23,6 +23,9 @@ void check_places(const deck::Deck& deck, const PointCloud& cloud, const Communi
 void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, const Communicator& communicator,
                    deck::Problems& problems);
 
+// Collective. Probes whose points have been dropped become the nearest points that are left.
+void find_probes_again(const std::vector<deck::NodeSet>& sets, Domain& domain);
+
 // Collective. The points that the probes of the history have become, a line each; a warning if one is far away.
 std::string places_of_probes(const deck::Deck& deck, const Domain& domain);
 

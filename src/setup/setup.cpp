@@ -43,6 +43,7 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weigh
   const std::vector<Period> all_periods = periods(deck, cloud, found.planes, communicator);
   Domain domain =
       domain_without_degenerate_points(deck, std::move(cloud), found.planes, all_periods, communicator, dropped);
+  if (dropped.points > 0) find_probes_again(deck.node_sets, domain);
   Scene scene{make_body(std::move(domain), deck.discretization.influence, materials),
               {},
               {},

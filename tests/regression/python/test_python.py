@@ -131,6 +131,20 @@ class Runs(InFolder):
         with self.assertRaisesRegex(strut.Error, "did you mean 'Mean_Displacement_Z'"):
             strut.Run(block.deck(History={**history, "Variables": {"Displacment_Z(tip)": True}}), block.mesh())
 
+    def test_a_probe_where_a_point_has_been_dropped_follows_the_nearest_that_is_left(self):
+        solid = np.ones((4, 5, 11), bool)
+        solid[:, :, 8:] = False
+        solid[1, 2, 10] = True  # alone
+        place = np.array([1.5, 2.5, 10.5]) * SPACING
+        history = {"Frequency": 1, "Variables": {"Displacement_Z(lost)": True}, "Probes": {"lost": {"Point": place}}}
+        end = {"Type": "Prescribed Velocity", "Node Set": "end", "Coordinate": "z", "Value": "-20"}
+        deck = block.deck(History=history, Discretization={"Degenerate Points": "Drop"},
+                          **{"Node Sets": {"end": f"(z > {7 * SPACING}) * (z < {8 * SPACING})"}})
+        deck["Boundary Conditions"]["top"] = end
+        with self.assertWarnsRegex(UserWarning, r"the probe 'lost' is element \d+ of block 'block' at \(0.0015 0.0025 0.0075\) m, 0.003 m"):
+            run = strut.run(deck, strut.voxels(solid, SPACING, name="block"))
+        self.assertAlmostEqual(run.history["Displacement_Z(lost)"][-1], -20 * run.time, delta=1e-9)
+
     def test_equilibria_pause_at_their_load_steps(self):
         conditions = block.deck()["Boundary Conditions"]
         top = {**conditions["top"], "Type": "Prescribed Displacement", "Value": "-1e-6*t"}

@@ -677,7 +677,7 @@ TEST(Changes, OfWhatARunIsMadeOfAreRefusedByTheirKeys) {
       {R"("Output Filename" type="string" value="bar")", R"("Output Filename" type="string" value="rod")",
        "Output > Output Filename: bar before, rod now"},
       {R"("Velocity" type="bool" value="false")", R"("Velocity" type="bool" value="true")",
-       "Output > Output Variables > Velocity: not there before, true now"}};
+       "Output > Output Variables > Velocity: nothing before, true now"}};
   for (const auto& [old, replacement, told] : cases) {
     const Changes one = changes(full_deck, changed(full_deck, old, replacement));
     EXPECT_EQ(one.refused, std::vector<std::string>{told});
@@ -702,7 +702,7 @@ TEST(Changes, AWholeSectionIsNamedOnce) {
   std::string other = full_deck;
   other.erase(begin, full_deck.find("</ParameterList>", begin) + 16 - begin);
   EXPECT_EQ(changes(full_deck, other).refused,
-            std::vector<std::string>{"Boundary Conditions > pull: a section before, not there now"});
+            std::vector<std::string>{"Boundary Conditions > pull: a section before, nothing now"});
 }
 
 // Steps may change, masses may not.
@@ -714,10 +714,10 @@ TEST(Changes, OfMassesWithinASectionOfStepsAreRefused) {
   scaled.replace(begin, end - begin,
                  R"(<ParameterList name="Verlet"><Parameter name="Mass Scaling dt" type="double" value="1e-7"/>)");
   const Changes more = changes(without, scaled);
-  EXPECT_EQ(more.accepted, std::vector<std::string>{"Solver > Verlet: not there before, a section now"});
-  EXPECT_EQ(more.refused, std::vector<std::string>{"Solver > Verlet > Mass Scaling dt: not there before, 1e-07 now"});
+  EXPECT_EQ(more.accepted, std::vector<std::string>{"Solver > Verlet: nothing before, a section now"});
+  EXPECT_EQ(more.refused, std::vector<std::string>{"Solver > Verlet > Mass Scaling dt: nothing before, 1e-07 now"});
   EXPECT_EQ(changes(scaled, without).refused,
-            std::vector<std::string>{"Solver > Verlet > Mass Scaling dt: 1e-07 before, not there now"});
+            std::vector<std::string>{"Solver > Verlet > Mass Scaling dt: 1e-07 before, nothing now"});
   EXPECT_TRUE(changes(without, full_deck).refused.empty());
 }
 
@@ -725,7 +725,7 @@ TEST(Changes, OfMassesWithinASectionOfStepsAreRefused) {
 TEST(Changes, AreOfValuesNotOfKeys) {
   const std::string damping = R"(<Parameter name="Stabilization Coefficient" type="double" value="0.05"/>)";
   EXPECT_EQ(changes(full_deck, changed(full_deck, damping, "")).refused,
-            std::vector<std::string>{"Materials > copper > Stabilization Coefficient: 0.05 before, not there now"});
+            std::vector<std::string>{"Materials > copper > Stabilization Coefficient: 0.05 before, nothing now"});
   const std::string solver = R"(<ParameterList name="Verlet">)";
   const std::string subcycling = R"(<Parameter name="Subcycling" type="bool" value="true"/>)";
   const Changes none = changes(full_deck, changed(full_deck, solver, solver + subcycling));
