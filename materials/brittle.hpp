@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "materials/elastic.hpp"
+#include "materials/softening.hpp"
 
 namespace strut::materials {
 
@@ -49,9 +50,8 @@ struct Brittle {
 
   Moduli moduli() const { return solid.moduli(); }
   double elastic_energy(const Symmetric& stress, const State& state) const {
-    const double mean = trace(stress) / 3, x = 1 - state.damage;
-    const double whole = mean > 0 ? 0 : mean * mean / (2 * solid.bulk);
-    return whole + solid.elastic_energy(mean > 0 ? stress : Symmetric(deviator(stress))) / x;
+    const auto whole = [this](const Symmetric& part) { return solid.elastic_energy(part); };
+    return energy_of_softened(stress, 1 - state.damage, solid.bulk, whole);
   }
   double dissipation(const State& state) const { return state.dissipated; }
   double crack_work(const State& state) const { return state.dissipated; }

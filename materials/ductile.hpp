@@ -18,6 +18,7 @@
 
 #include "materials/failure_criterion.hpp"
 #include "materials/j2.hpp"
+#include "materials/softening.hpp"
 #include "materials/thermal_j2.hpp"
 
 namespace strut::materials {
@@ -63,10 +64,8 @@ struct DuctileOf {
   Moduli moduli(const State& state) const { return state.damage < 1 ? metal.moduli() : Moduli{}; }
   double elastic_energy(const Symmetric& stress, const State& state) const {
     if (!(state.damage < 1)) return 0;
-    const double mean = trace(stress) / 3, x = 1 - state.damage;
-    const double whole = mean > 0 ? 0 : mean * mean / (2 * metal.bulk);
-    const Symmetric rest = mean > 0 ? stress : deviator(stress);
-    return whole + metal.elastic_energy(rest, state.metal) / x;
+    const auto whole = [&](const Symmetric& part) { return metal.elastic_energy(part, state.metal); };
+    return energy_of_softened(stress, 1 - state.damage, metal.bulk, whole);
   }
   bool has_flowed(const State& state) const { return metal.has_flowed(state.metal); }
   double part_left(const State& state) const { return 1 - state.damage; }

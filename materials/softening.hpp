@@ -1,6 +1,8 @@
 // Shared by laws with damage, which reduces the deviator and the tension of the stress and keeps the pressure.
 #pragma once
 
+#include <algorithm>
+
 #include "materials/law.hpp"
 
 namespace strut::materials {
@@ -13,6 +15,14 @@ inline Symmetric scaled(const Symmetric& stress, double x) {
 
 // The part of a stress that damage reduces.
 inline Symmetric falling(const Symmetric& stress) { return trace(stress) > 0 ? stress : Symmetric(deviator(stress)); }
+
+// Elastic energy, J/m³, of a stress whose deviator and tension have fallen to x of their values. whole(stress): that of
+// the undamaged solid with this bulk modulus.
+template <class Whole>
+double energy_of_softened(const Symmetric& stress, double x, double bulk, const Whole& whole) {
+  const double pressed = std::min(trace(stress) / 3, 0.0);
+  return pressed * pressed / (2 * bulk) + whole(falling(stress)) / x;
+}
 
 // Computes lane l of a step by `soften`, which steps one point.
 template <class State, class Lanes, class Soften>

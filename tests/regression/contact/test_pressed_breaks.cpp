@@ -70,20 +70,6 @@ TEST(PressedBreaks, GoOnAfterACheckpoint) {
   }
 }
 
-// The same where single bonds of a point break, a few a step: an elastic block that is crushed in no time.
-TEST(PressedBreaks, OfSingleBondsGoOnAfterACheckpoint) {
-  for (const std::string& contact : {surface, penalty}) {
-    const RunFolder folder(block);
-    Parts parts = crushed(contact, 0.5);
-    parts.materials = copper();
-    parts.damage = section("tearing", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.02"));
-    parts.conditions = changed(parts.conditions, "-20*t", "-200*t");
-    parts.times = key("Final Time", "15e-6");
-    const auto works = expect_same_after_checkpoints(folder, parts, &Ledger::contact, 20, 10);
-    EXPECT_GT(works.size(), 100u);
-  }
-}
-
 // Between periodic sides along x, points of a lattice that a pattern of six spacings displaces by up to 0.05 spacings;
 // the lower and upper layers are held and pressed.
 Parts between_sides(const RunFolder& folder, const std::string& law, int periods) {
