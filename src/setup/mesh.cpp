@@ -209,13 +209,13 @@ void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, co
     if (cloud.set_names.size() >= 64) return problems.add(path_of(set), "mesh and deck have more than 64 node sets");
     const std::uint64_t bit = std::uint64_t{1} << cloud.set_names.size();
     cloud.set_names.push_back(set.name);
-    if (set.numbers) {
-      add_numbered_set(set, bit, cloud, communicator, problems);
-      continue;
-    }
-    if (set.nearest) {
+    if (set.nearest) {  // also of a set in Boundary Conditions, which has numbers, although none
       mark_nearest(
           *set.nearest, bit, [&](std::size_t i) { return cloud.positions[i]; }, cloud, communicator);
+      continue;
+    }
+    if (set.numbers) {
+      add_numbered_set(set, bit, cloud, communicator, problems);
       continue;
     }
     try {
