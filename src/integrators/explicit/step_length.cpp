@@ -47,7 +47,7 @@ void StepLength::estimate(Body& body) {
   bound_at_estimate_ = frequency_bound_;
   estimate_due_ = false;
   bonds_broke_ = false;
-  ++estimates_;
+  allowance_ -= steps_a_renewal;
   steps_since_estimate_ = 0;
 }
 
@@ -63,7 +63,7 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
   const bool estimated = estimate_due_;
   if (estimated) estimate(body);
   levels_due_ = frequency_bound_ > growth * bound_at_estimate_ || steps_since_estimate_ >= renewal_steps ||
-                exposed_are_pushed || (bonds_broke_ && steps_ >= steps_a_renewal * estimates_);
+                exposed_are_pushed || (bonds_broke_ && allowance_ >= 0);
   if (control_.fixed_dt > 0) {
     // The remainder that round-off leaves after the last full step is not a step of its own.
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
@@ -113,7 +113,7 @@ void StepLength::serialize(Archive& archive, const Body& body) {
   archive.number("frequency_bound", frequency_bound_);
   archive.number("bound_at_estimate", bound_at_estimate_);
   archive.number("damping", damping_);
-  archive.number("estimates", estimates_);
+  archive.number("estimate_allowance", allowance_);
   archive.number("bonds_broke", bonds_broke_);
   archive.number("levels_due", levels_due_);
   archive.number("estimate_due", estimate_due_);
