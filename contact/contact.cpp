@@ -332,10 +332,12 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
   archive.number("contact_stiffness", stiffness_);
   archive.number("penetration", penetration_);
   archive.number("searches", searches_);
+  const Domain& domain = kinematics.domain;
+  // A rank without points does not know it.
+  const bool any_may_break = any() && domain.communicator.max(domain.families.broken.empty() ? 0.0 : 1.0) > 0;
   for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
     ContactPair& pair = contact_pairs_[m];
-    const Domain& domain = kinematics.domain;
-    const bool may_break = pair.blocks.one_body && !domain.families.broken.empty();
+    const bool may_break = pair.blocks.one_body && any_may_break;
     if (!may_break && !(pair.surfaces && pair.model.friction > 0)) continue;
     std::vector<std::int64_t> ids;
     for (const int i : pair.blocks.points) ids.push_back(domain.id(i));
