@@ -1,4 +1,4 @@
-// Measured cost ratios of steps (docs/decisions.md, What subcycling costs), for the partition weights and for the
+// Measured cost ratios of steps (docs/decisions.md, Cost of subcycling), for the partition weights and for the
 // choice of substeps.
 #pragma once
 

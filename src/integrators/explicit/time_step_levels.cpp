@@ -37,7 +37,7 @@ constexpr int max_level = 6;
 constexpr double most_turn = 0.6;
 
 // Costs are not timed in the run, because the run would then differ on another machine or when repeated; these
-// constants are measured (docs/decisions.md, What subcycling costs).
+// constants are measured (docs/decisions.md, Cost of subcycling).
 //
 // Cost of a substep of a point, with its part of the points that it moves, relative to a whole step of that point: more
 // than measured on one rank, because each substep has exchanges of its own.
