@@ -21,9 +21,7 @@ std::string filled_tools(const Situation& situation) {
     const Vector offset = tools[n].offset(situation.start);
     double inside = 0, deepest = 0;
     for (const int i : tools[n].points) {
-      const Vector place = scene.body.current(i) - offset;
-      const auto met = [&](const auto& shape) { return tools[n].met_by(i, shape, place).gap; };
-      const double depth = -std::visit(met, tools[n].shape);
+      const double depth = -tools[n].met_by(i, tools[n].shape, scene.body.current(i) - offset).gap;
       if (depth <= least_depth * domain.cloud.spacings[i]) continue;
       ++inside;
       deepest = std::max(deepest, depth);

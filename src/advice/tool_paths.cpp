@@ -21,8 +21,7 @@ double smallest_gap(const RigidTool& tool, const Body& body, const std::vector<V
   double smallest = std::numeric_limits<double>::infinity();
   for (const int i : tool.points) {
     const Vector place = body.current(i) + after * velocities[i] - offset;
-    smallest =
-        std::min(smallest, std::visit([&](const auto& shape) { return tool.met_by(i, shape, place).gap; }, tool.shape));
+    smallest = std::min(smallest, tool.met_by(i, tool.shape, place).gap);
   }
   return body.domain.communicator.min(smallest);
 }

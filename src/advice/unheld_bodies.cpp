@@ -149,7 +149,7 @@ void hold_by_tools(const Scene& scene, double start, Pieces& pieces) {
     const Vector offset = tool.offset(start);
     for (const int i : tool.points) {
       const Vector place = scene.body.current(i) - offset;
-      const Surface at = std::visit([&](const auto& shape) { return tool.met_by(i, shape, place); }, tool.shape);
+      const Surface at = tool.met_by(i, tool.shape, place);
       if (at.gap < touching * domain.cloud.spacings[i]) {
         pieces.all[pieces.of[i]].hold(domain.reference(i), at.normal);
       }
