@@ -18,26 +18,26 @@ std::vector<int> places_in(const BlockPair& blocks, const Pairs& pairs);
 std::vector<std::int64_t> new_breaks(const Domain& domain, const BlockPair& blocks, int at, const BrokenCounts& before,
                                      const BrokenCounts& now);
 
-// A pair whose bond broke while its points were nearer than points that touch. They press each other only where they
-// are nearer than they were then, or have been since: a sudden pressure would be energy out of nothing.
+// A pair whose bond broke while its points were nearer than points that touch. From then on its points press each other
+// only when they are nearer than `touching`: a sudden pressure would be energy out of nothing.
 struct PressedPair {
   int point = 0;             // owned, local index in the body
   std::int64_t partner = 0;  // its id
-  double touching = 0;       // the distance at which they touch, m
+  double touching = 0;       // m, their distance at the break, or the largest that they have had since
 };
 
-// Those of pairs.limits, by points and partners.
+// The pairs that have a limit in pairs.limits.
 std::vector<PressedPair> pressed_pairs(const Pairs& pairs);
 
-// Call it after a search. Sets pairs.limits: those of the pairs that were pressed before, and the present distances of
-// points whose bonds this search is the first to know as broken. `radius`: r_c, m.
+// Call it after a search. Sets pairs.limits: for the pairs in `pressed` their distance `touching`, for pairs whose
+// bonds this search is the first to find broken their present distance. `radius`: r_c, m.
 void set_limits(const Domain& domain, const BlockPair& blocks, double radius, const BrokenCounts& before,
                 const BrokenCounts& now, std::span<const PressedPair> pressed, Pairs& pairs);
 
-// Points that have moved apart touch at their present distance from now on.
+// Raises the limit of each pair whose points are farther apart than the limit to their present distance.
 void raise_limits(Pairs& pairs);
 
-// Collective. Saves or restores them, as columns of blocks.points.
+// Collective. Saves or restores the pressed pairs, as columns of blocks.points.
 void serialize(Archive& archive, const Domain& domain, const BlockPair& blocks, std::vector<PressedPair>& pressed);
 
 }  // namespace strut::contact

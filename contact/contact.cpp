@@ -333,7 +333,7 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
   archive.number("penetration", penetration_);
   archive.number("searches", searches_);
   const Domain& domain = kinematics.domain;
-  // A rank without points does not know it.
+  // A rank without points cannot tell by itself whether bonds may break.
   const bool any_may_break = any() && domain.communicator.max(domain.families.broken.empty() ? 0.0 : 1.0) > 0;
   for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
     ContactPair& pair = contact_pairs_[m];

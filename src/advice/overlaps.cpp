@@ -54,7 +54,8 @@ std::vector<double> volumes_within_horizons(const Domain& domain) {
   return volumes;
 }
 
-// The same of the family alone, whose larger points reach farther than the horizon of this one.
+// The volume (m³) of owned point i and of those points of its family that lie within its own horizon: the family of a
+// small point also holds larger points farther away.
 double volume_of_neighbors(const Domain& domain, int i) {
   const double horizon = domain.horizon(i);
   double volume = domain.volume(i);

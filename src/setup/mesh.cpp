@@ -209,7 +209,7 @@ void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, co
     if (cloud.set_names.size() >= 64) return problems.add(path_of(set), "mesh and deck have more than 64 node sets");
     const std::uint64_t bit = std::uint64_t{1} << cloud.set_names.size();
     cloud.set_names.push_back(set.name);
-    if (set.nearest) {  // also of a set in Boundary Conditions, which has numbers, although none
+    if (set.nearest) {  // asked first: a set of Boundary Conditions has numbers, too, which are then empty
       mark_nearest(
           *set.nearest, bit, [&](std::size_t i) { return cloud.positions[i]; }, cloud, communicator);
       continue;
