@@ -32,4 +32,7 @@ void FieldSet::serialize(Archive& archive, const Places& places) {
   }
 }
 
+template class FieldOf<std::vector<double>>;
+template class FieldOf<std::vector<std::uint8_t>>;
+
 }  // namespace strut

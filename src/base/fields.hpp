@@ -4,6 +4,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -61,7 +62,10 @@ class FieldOf : public AnyField {
  public:
   using AnyField::AnyField;
   void resize(std::size_t size) override {
-    if constexpr (requires { values.assign(size, values[0]); }) values.assign(size, start());
+    if constexpr (requires { values.assign(size, values[0]); }) {
+      using Value = std::remove_cvref_t<decltype(values[0])>;
+      values.assign(size, start<Value>());
+    }
   }
   double bytes() const override {
     if constexpr (requires { values.bytes(); }) {
@@ -79,8 +83,8 @@ class FieldOf : public AnyField {
   Values values;
 
  private:
-  static auto start() {
-    using Value = std::remove_cvref_t<decltype(values[0])>;
+  template <class Value>
+  static Value start() {
     if constexpr (requires { Value::Zero(); }) {
       return Value(Value::Zero());
     } else {
@@ -184,5 +188,9 @@ class FieldSet {
 
   std::vector<std::unique_ptr<AnyField>> fields_;
 };
+
+// Compiled once, in fields.cpp.
+extern template class FieldOf<std::vector<double>>;
+extern template class FieldOf<std::vector<std::uint8_t>>;
 
 }  // namespace strut

@@ -161,4 +161,11 @@ inline bool Body::may_break() const {
                      [](const MaterialBlock& b) { return b.material.damage.has_value(); });
 }
 
+// Compiled once, in make_body.cpp.
+extern template class FieldOf<std::vector<MaterialPoint>>;
+extern template class FieldOf<Deduplicated<Symmetric>>;
+extern template class FieldOf<Deduplicated<Vector>>;
+extern template class FieldOf<std::vector<PointExpansion>>;
+extern template class FieldOf<std::vector<Vector>>;
+
 }  // namespace strut

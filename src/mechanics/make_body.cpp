@@ -237,4 +237,10 @@ double footprint(const Body& body) {
   return bytes;
 }
 
+template class FieldOf<std::vector<MaterialPoint>>;
+template class FieldOf<Deduplicated<Symmetric>>;
+template class FieldOf<Deduplicated<Vector>>;
+template class FieldOf<std::vector<PointExpansion>>;
+template class FieldOf<std::vector<Vector>>;
+
 }  // namespace strut

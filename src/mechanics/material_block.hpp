@@ -119,4 +119,10 @@ struct MaterialBlock {
   }
 };
 
+// Compiled once, in material_block.cpp.
+extern template class FieldOf<small::Tiles>;
+extern template class FieldOf<CellPoints>;
+extern template class FieldOf<std::vector<OrdinaryPoint>>;
+extern template class FieldOf<std::vector<ViscousPoint>>;
+
 }  // namespace strut

@@ -1,11 +1,29 @@
 #include "topology/mirror.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/errors.hpp"
 #include "topology/cloud.hpp"
 
 namespace strut {
+
+double Mirror::distance(const Vector& X) const { return normal.dot(X - on); }
+
+bool Mirror::holds(const Vector& X, double size) const { return std::abs(distance(X)) < 1e-6 * size; }
+
+Reflection Reflection::by(const Mirror& mirror) {
+  const Vector& n = mirror.normal;
+  return {Tensor::Identity() - 2 * n * n.transpose(), 2 * n.dot(mirror.on) * n};
+}
+
+Vector Reflection::operator()(const Vector& X) const { return turn * X + shift; }
+
+Reflection Reflection::after(const Reflection& first) const { return {turn * first.turn, turn * first.shift + shift}; }
+
+Reflection Reflection::stretched(const Vector& stretch) const {
+  return {turn, shift + period.cwiseProduct(stretch - Vector::Ones()), period};
+}
 
 namespace {
 

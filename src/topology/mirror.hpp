@@ -2,7 +2,6 @@
 // points: ghosts whose values are the reflected or shifted values of their originals.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -19,9 +18,9 @@ struct Mirror {
   int bit = 0;                                           // bit of `shared_nodes` for nodes on it (cloud.hpp)
   double period = 0;                                     // m, of a periodic side: to the other one; 0: a mirror
 
-  double distance(const Vector& X) const { return normal.dot(X - on); }  // m, negative behind the normal
+  double distance(const Vector& X) const;  // m, negative behind the normal
   // True if a point is on it, to round-off; `size`: its horizon or spacing, m.
-  bool holds(const Vector& X, double size) const { return std::abs(distance(X)) < 1e-6 * size; }
+  bool holds(const Vector& X, double size) const;
 };
 
 // Two sides, normal to an axis, behind which all bodies go on as they are behind the other side.
@@ -42,16 +41,11 @@ struct Reflection {
   Vector shift = Vector::Zero();   // m, in the reference state
   Vector period = Vector::Zero();  // m, the part of the shift that stretches with the periods
 
-  static Reflection by(const Mirror& mirror) {
-    const Vector& n = mirror.normal;
-    return {Tensor::Identity() - 2 * n * n.transpose(), 2 * n.dot(mirror.on) * n};
-  }
-  Vector operator()(const Vector& X) const { return turn * X + shift; }
-  Reflection after(const Reflection& first) const { return {turn * first.turn, turn * first.shift + shift}; }
+  static Reflection by(const Mirror& mirror);
+  Vector operator()(const Vector& X) const;
+  Reflection after(const Reflection& first) const;
   // The same map for present positions, where the periods along x, y, z are stretched.
-  Reflection stretched(const Vector& stretch) const {
-    return {turn, shift + period.cwiseProduct(stretch - Vector::Ones()), period};
-  }
+  Reflection stretched(const Vector& stretch) const;
 };
 
 // The images of bodies. Image 0 is the body itself.

@@ -92,6 +92,13 @@ materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, con
 
 }  // namespace
 
+Tensor PointTangent::times(const Tensor& dF) const {
+  Tensor dP;
+  Eigen::Map<Eigen::Matrix<double, 9, 1>>(dP.data()) =
+      by_gradient * Eigen::Map<const Eigen::Matrix<double, 9, 1>>(dF.data());
+  return dP;
+}
+
 std::vector<PointTangent> point_tangents(const Body& body, const Committed& start, double dt) {
   std::size_t cells = 0;
   for (const MaterialBlock& block : body.blocks) cells += block.cells->places();

@@ -35,12 +35,7 @@ class Committed {
 struct PointTangent {
   Eigen::Matrix<double, 9, 9> by_gradient;
 
-  Tensor times(const Tensor& dF) const {
-    Tensor dP;
-    Eigen::Map<Eigen::Matrix<double, 9, 1>>(dP.data()) =
-        by_gradient * Eigen::Map<const Eigen::Matrix<double, 9, 1>>(dF.data());
-    return dP;
-  }
+  Tensor times(const Tensor& dF) const;
 };
 
 // ∂P/∂F of every owned point at the end of a step over dt (s, > 0) from `start`, consistent with the law's own step.
