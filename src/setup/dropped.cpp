@@ -16,18 +16,18 @@ namespace {
 constexpr double most_lost = 0.01;  // of all points
 
 // Number of points that are in the piece `now` and were in the piece `before`.
-struct Part {
+struct PiecePart {
   std::int64_t before, now, points;
 };
 
-std::vector<Part> parts_of_this_rank(const Domain& left, const PiecesOfPoints& before) {
+std::vector<PiecePart> parts_of_this_rank(const Domain& left, const PiecesOfPoints& before) {
   const std::vector<std::int64_t> now = piece_ids(left);
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> counts;
   for (int i = 0; i < left.owned; ++i) {
     const auto was = std::lower_bound(before.begin(), before.end(), std::pair(left.id(i), std::int64_t{-1}));
     ++counts[{was->second, now[i]}];
   }
-  std::vector<Part> parts;
+  std::vector<PiecePart> parts;
   for (const auto& [key, points] : counts) parts.push_back({key.first, key.second, points});
   return parts;
 }
@@ -54,9 +54,9 @@ PiecesOfPoints pieces_of_points(const Domain& domain) {
 
 // The pieces are counted on rank 0.
 void take_pieces(const Domain& left, const PiecesOfPoints& before, Dropped& dropped) {
-  const std::vector<Part> mine = parts_of_this_rank(left, before);
+  const std::vector<PiecePart> mine = parts_of_this_rank(left, before);
   std::map<std::int64_t, std::map<std::int64_t, std::int64_t>> pieces;
-  for (const Part& part : gather(left.communicator, std::span(mine))) pieces[part.before][part.now] += part.points;
+  for (const PiecePart& part : gather(left.communicator, std::span(mine))) pieces[part.before][part.now] += part.points;
   Dropped cut;
   for (const auto& [piece, parts] : pieces) {
     std::int64_t all = 0, largest = 0;

@@ -36,10 +36,10 @@ bool is_in(const PointCloud& cloud, const std::string& set, std::size_t i) {
   return (cloud.sets[i] >> (name - cloud.set_names.begin()) & 1) != 0;
 }
 
-class Search {
+class PlaneSearch {
  public:
-  Search(const PointCloud& cloud, const Mirror& plane, const std::string& set, const std::vector<BlockBonds>& bonds,
-         const Communicator& communicator)
+  PlaneSearch(const PointCloud& cloud, const Mirror& plane, const std::string& set,
+              const std::vector<BlockBonds>& bonds, const Communicator& communicator)
       : cloud_(cloud), plane_(plane), set_(set), bonds_(bonds), communicator_(communicator) {}
 
   Place place() const {
@@ -186,7 +186,7 @@ Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communica
     for (const int body : bodies) {
       plane.body = body;
       const std::string& set = deck.conditions[plane.number].node_set;
-      const Place place = Search(cloud, plane, set, bonds, communicator).place();
+      const Place place = PlaneSearch(cloud, plane, set, bonds, communicator).place();
       if (place.in_set == 0 || holds_the_middle(place)) continue;
       const bool is_quadratic = is_quadratic_body(deck, cloud, bonds, body);
       const std::string text = objection(place, cloud.at, is_quadratic);

@@ -195,7 +195,7 @@ Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
   return stop.left;
 }
 
-void Newton::tell(const Search& search, int products) const {
+void Newton::tell(const EquilibriumSearch& search, int products) const {
   if (!observer_.iterations) return;
   char line[160];
   std::snprintf(line, sizeof line, "  iteration %2d  %3d products  %.3e N left of %.3e N, damping %.0e%s",
@@ -204,8 +204,8 @@ void Newton::tell(const Search& search, int products) const {
   observer_.iterations(line);
 }
 
-Search Newton::solve(const Tolerance& tolerance) {
-  Search search;
+EquilibriumSearch Newton::solve(const Tolerance& tolerance) {
+  EquilibriumSearch search;
   search.left = equilibrium_.evaluate();
   Field way = equilibrium_.constraints().way_left(equilibrium_.body()), step;
   bool moves = is_a_way(way, equilibrium_.body());

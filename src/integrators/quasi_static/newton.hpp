@@ -22,7 +22,7 @@ class Newton {
   void serialize(Archive& archive);  // state of the earlier systems that a resumed run needs
 
   // Collective. Starts from the present positions, within the step that the equilibrium has begun.
-  Search solve(const Tolerance& tolerance);
+  EquilibriumSearch solve(const Tolerance& tolerance);
 
  private:
   int correct(const Field& way, bool moves, double accuracy, Field& step);
@@ -36,7 +36,7 @@ class Newton {
   void renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra);
   void damp_less(double factor);
   void damp_more(double factor);
-  void tell(const Search& search, int products) const;
+  void tell(const EquilibriumSearch& search, int products) const;
 
   Equilibrium& equilibrium_;
   const Observer& observer_;

@@ -63,19 +63,19 @@ void QuasiStatic::extrapolate() {
   for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() += factor * last_step_[i].array();
 }
 
-Search QuasiStatic::search_from_start(bool with_tangent) {
+EquilibriumSearch QuasiStatic::search_from_start(bool with_tangent) {
   equilibrium_.begin(time_, dt_);
   extrapolate();
   return search_in_rounds(with_tangent);
 }
 
 // Rounds of the multipliers of tools, each from the equilibrium of the previous one.
-Search QuasiStatic::search_in_rounds(bool with_tangent) {
+EquilibriumSearch QuasiStatic::search_in_rounds(bool with_tangent) {
   newton_.begin_anew();  // else a resumed run would not continue like an uninterrupted one
   relaxation_.begin_anew();
-  Search whole;
+  EquilibriumSearch whole;
   for (int round = 0; round < most_rounds; ++round) {
-    const Search last = search(with_tangent);
+    const EquilibriumSearch last = search(with_tangent);
     whole = {last.converged,
              whole.iterations + last.iterations,
              whole.evaluations + last.evaluations,
@@ -91,11 +91,12 @@ Search QuasiStatic::search_in_rounds(bool with_tangent) {
 
 // Where Newton stalls, the body is about to jump, fold or crush in layers: relaxation continues from there, through
 // states without a useful tangent, and Newton finishes what it leaves.
-Search QuasiStatic::search(bool with_tangent) {
+EquilibriumSearch QuasiStatic::search(bool with_tangent) {
   const Tolerance& tolerance = control_.tolerance;
-  Search found = with_tangent ? newton_.solve(tolerance) : relaxation_.solve(tolerance, Relaxation::most(tolerance));
+  EquilibriumSearch found =
+      with_tangent ? newton_.solve(tolerance) : relaxation_.solve(tolerance, Relaxation::most(tolerance));
   const auto goes_on = [&] { return with_tangent && !found.converged && !found.interrupted && !found.left.failed; };
-  const auto add = [&](Search more) {
+  const auto add = [&](EquilibriumSearch more) {
     more.iterations += found.iterations, more.evaluations += found.evaluations;
     found = more;
   };
@@ -110,8 +111,8 @@ Search QuasiStatic::search(bool with_tangent) {
 
 // If Newton inverted points, its state is useless: relaxation is tried from the start, but because it takes many times
 // as long as Newton, only for steps that cutting has not solved.
-Search QuasiStatic::attempt() {
-  const Search search = search_from_start(control_.with_tangent);
+EquilibriumSearch QuasiStatic::attempt() {
+  const EquilibriumSearch search = search_from_start(control_.with_tangent);
   if (!search.left.failed || search.interrupted || !control_.with_tangent || dt_ > patience * longest_) return search;
   equilibrium_.go_back();
   return search_from_start(false);
@@ -154,7 +155,7 @@ void QuasiStatic::begin_strained(bool goes_on) {
 bool QuasiStatic::advance() {
   dt_ = std::min({dt_, longest_, final_time_ - time_});
   for (;;) {
-    const Search search = attempt();
+    const EquilibriumSearch search = attempt();
     if (search.converged && (equilibrium_.largest_stretch() <= most_stretch || dt_ <= finest_break * longest_)) {
       commit(search);
       return true;
@@ -180,7 +181,7 @@ void QuasiStatic::take_work() {
   largest_energy_ += above_errors * equilibrium_.work_of_errors(control_.tolerance.relative);
 }
 
-void QuasiStatic::commit(Search search) {
+void QuasiStatic::commit(EquilibriumSearch search) {
   Body& body = equilibrium_.body();
   equilibrium_.evaluate(true);
   take_work();
@@ -202,12 +203,12 @@ void QuasiStatic::commit(Search search) {
 
 // Bonds beyond their limit break at once, while conditions rest; the body goes to its next equilibrium, in which others
 // may be beyond theirs. Returns how many broke. It is not interrupted: between its equilibria a run could not go on.
-std::int64_t QuasiStatic::settle(Search& search) {
+std::int64_t QuasiStatic::settle(EquilibriumSearch& search) {
   const auto stop_requested = std::exchange(observer_.stop_requested, [] { return false; });
   std::int64_t all = 0;
   while (const std::int64_t broken = equilibrium_.break_bonds()) {
     all += broken;
-    const Search found = search_in_rounds(control_.with_tangent);
+    const EquilibriumSearch found = search_in_rounds(control_.with_tangent);
     search.iterations += found.iterations, search.evaluations += found.evaluations, search.left = found.left;
     if (!found.converged) raise_no_equilibrium(all);
     equilibrium_.evaluate(true);
@@ -229,7 +230,7 @@ void QuasiStatic::raise_no_equilibrium(std::int64_t broken) {
   raise_together(equilibrium_.body().domain.communicator, where.empty() ? "" : text.str() + where);
 }
 
-void QuasiStatic::tell(const Search& search, std::int64_t broken) const {
+void QuasiStatic::tell(const EquilibriumSearch& search, std::int64_t broken) const {
   char line[200];
   const int length = std::snprintf(
       line, sizeof line, "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, %.1e of the load left",

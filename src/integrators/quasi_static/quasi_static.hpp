@@ -50,16 +50,16 @@ class QuasiStatic {
   Reactions reactions(int conditions) const { return equilibrium_.reactions(conditions); }  // collective
 
  private:
-  Search attempt();
-  Search search(bool with_tangent);
-  Search search_in_rounds(bool with_tangent);
-  Search search_from_start(bool with_tangent);
+  EquilibriumSearch attempt();
+  EquilibriumSearch search(bool with_tangent);
+  EquilibriumSearch search_in_rounds(bool with_tangent);
+  EquilibriumSearch search_from_start(bool with_tangent);
   void extrapolate();
   void take_work();
-  void commit(Search search);
-  std::int64_t settle(Search& search);
+  void commit(EquilibriumSearch search);
+  std::int64_t settle(EquilibriumSearch& search);
   void raise_no_equilibrium(std::int64_t broken);
-  void tell(const Search& search, std::int64_t broken) const;
+  void tell(const EquilibriumSearch& search, std::int64_t broken) const;
   void serialize_steps(Archive& archive);
 
   Observer observer_;

@@ -49,11 +49,11 @@ void Relaxation::renew_masses() {
   body.density = density;
 }
 
-Search Relaxation::solve(const Tolerance& tolerance, int most) {
+EquilibriumSearch Relaxation::solve(const Tolerance& tolerance, int most) {
   Body& body = equilibrium_.body();
   const Communicator& ranks = body.domain.communicator;
   const Constraints& held = equilibrium_.constraints();
-  Search search;
+  EquilibriumSearch search;
   search.left = equilibrium_.evaluate();
   Field velocity(body.owned(), Vector::Zero()), before;
   double damping = 0;

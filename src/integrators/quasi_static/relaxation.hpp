@@ -15,7 +15,7 @@ class Relaxation {
   static int most(const Tolerance& tolerance) { return 1000 * tolerance.most_iterations; }
 
   // Collective. Starts from the present positions, within the step that the equilibrium has begun.
-  Search solve(const Tolerance& tolerance, int most);
+  EquilibriumSearch solve(const Tolerance& tolerance, int most);
 
   void begin_anew() { critical_time_step_ = {}; }  // the next search does not depend on earlier ones
 

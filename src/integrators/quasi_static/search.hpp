@@ -21,7 +21,7 @@ struct Observer {
   std::function<bool()> stop_requested;                // true if the run must end: on any rank, at any time
 };
 
-struct Search {
+struct EquilibriumSearch {
   bool converged = false;
   int iterations = 0;
   int evaluations = 0;  // of the forces, or of the tangent times a field
