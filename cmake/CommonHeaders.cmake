@@ -15,9 +15,7 @@ function(strut_common_headers target)
   else()
     target_precompile_headers(${target} REUSE_FROM ${owner})
   endif()
-  if(owner STREQUAL strut_headers)
-    target_compile_options(${target} PRIVATE ${STRUT_SHARED_CODE})  # headers and their users must agree
-  endif()
+  target_compile_options(${target} PRIVATE ${STRUT_SHARED_CODE})  # headers and their users must agree
   # GCC 12 takes what was compiled before for the project's own, and warns falsely of the std::string in it.
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)

@@ -219,7 +219,7 @@ std::vector<Vector> free_directions(const Holds& holds) {
 
 bool is_free(const Holds& holds) {
   const double least = none * std::max(holds.trace(), 1e-300);
-  return Eigen::SelfAdjointEigenSolver<Holds>(holds, Eigen::EigenvaluesOnly).eigenvalues()[0] < least;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(holds, Eigen::EigenvaluesOnly).eigenvalues()[0] < least;
 }
 
 // Describes the free motion; "" if there is none.
