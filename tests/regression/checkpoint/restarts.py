@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs that are ended in every way go on to the same end.
 
-  restarts.py [--kills N] [--seed S] strut strut-compare mpirun [its options]
+  restarts.py [--kills N] [--seed S] [--scene NAME] strut strut-compare mpirun [its options]
 
 Scenes: in explicit steps a plastic bar that strikes a plane with an ordinary elastic one behind it (points that are
 subcycled, contact, friction, viscosity, reactions), the same by quadratic correspondence, and with bonds that break,
@@ -612,6 +612,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--kills", type=int, default=5)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--scene", choices=SCENES, help="this one alone")
     parser.add_argument("strut")
     parser.add_argument("compare")
     parser.add_argument("mpirun", nargs=argparse.REMAINDER)
@@ -621,7 +622,7 @@ def main():
     os.chdir(folder)
     test = Test(strut, compare, words.mpirun, words.seed)
     try:
-        for name in SCENES:
+        for name in [words.scene] if words.scene else SCENES:
             test.scene(name, words.kills)
     finally:
         if test.failures == 0:
