@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "topology/neighbors/whole_family.hpp"
 
@@ -58,22 +59,24 @@ std::vector<PressedPair> pressed_pairs(const Pairs& pairs) {
 void set_limits(const Domain& domain, const BlockPair& blocks, double radius, const BrokenCounts& before,
                 const BrokenCounts& now, std::span<const PressedPair> pressed, Pairs& pairs) {
   if (now.empty()) return;
-  std::vector<double> limits(pairs.partners.size(), none);
+  std::vector<std::pair<std::size_t, double>> limits;  // index of the partner, m
   for (const PressedPair& one : pressed) {
     const auto owner = std::ranges::lower_bound(pairs.owned, one.point);
     if (owner == pairs.owned.end() || *owner != one.point) continue;  // its partners are far away by now
     over_partners(pairs, owner - pairs.owned.begin(), {&one.partner, 1},
-                  [&](std::size_t p) { limits[p] = one.touching; });
+                  [&](std::size_t p) { limits.emplace_back(p, one.touching); });
   }
   const std::vector<int> places = places_in(blocks, pairs);
   for (std::size_t k = 0; k < places.size(); ++k) {
     over_partners(pairs, k, new_breaks(domain, blocks, places[k], before, now), [&](std::size_t p) {
       const Vector apart = (pairs.sites[pairs.partners[p]].reference - pairs.sites[k].reference).head<3>().matrix();
       const double now_apart = distance(pairs, k, p);
-      if (now_apart < largest_touching_distance(radius, apart.norm(), true)) limits[p] = now_apart;
+      if (now_apart < largest_touching_distance(radius, apart.norm(), true)) limits.emplace_back(p, now_apart);
     });
   }
-  if (std::ranges::any_of(limits, [](double limit) { return limit != none; })) pairs.limits = std::move(limits);
+  if (limits.empty()) return;
+  pairs.limits.assign(pairs.partners.size(), none);
+  for (const auto& [p, limit] : limits) pairs.limits[p] = limit;
 }
 
 void raise_limits(Pairs& pairs) {

@@ -14,8 +14,9 @@ constexpr double renewal_growth = 1.1;
 constexpr int renewal_steps = 1000;
 
 // Breaks may raise ω without raising the largest frequency bound: of points beside others that have lost bonds. The
-// estimate after breaks, which costs some four steps, is renewed at once, but once in this number of steps in the mean.
-constexpr int steps_a_renewal = 100;
+// estimate after breaks, which costs some four steps, is renewed at once, but once in this number of steps in the mean:
+// each estimate uses up so many of the steps that are allowed for, of which a run without breaks saves this many.
+constexpr int steps_a_renewal = 100, most_allowed = 10 * steps_a_renewal;
 
 constexpr double round_off = 1e-6;  // of a step: times are sums over up to millions of steps
 
@@ -93,6 +94,11 @@ double StepLength::longest_step(double contact_stiffness, bool bonds_may_break, 
   least_chosen_ = estimated ? chosen : since;
   if (dt_ == 0 || levels_anew_ || dt_ > longest_stay(bonds_may_break) * now) return chosen;
   return estimated && since >= least_growth * dt_ ? since : dt_;
+}
+
+void StepLength::count_step() {
+  ++steps_, ++steps_since_estimate_;
+  allowance_ = std::min(allowance_ + 1, most_allowed);
 }
 
 PresentStep StepLength::present(bool bonds_may_break) const {

@@ -41,7 +41,7 @@ class StepLength {
   void take(double frequency_bound, double damping, bool bonds_broke) {
     frequency_bound_ = frequency_bound, damping_ = damping, bonds_broke_ = bonds_broke_ || bonds_broke;
   }
-  void count_step() { ++steps_, ++steps_since_estimate_, ++allowance_; }
+  void count_step();
 
   // Time-step levels: whether to choose them anew; the data of the present step that they need; the result.
   bool levels_due() const { return levels_due_; }
@@ -64,7 +64,7 @@ class StepLength {
   double step_of_bound_ = 0;                                       // s, the step that resulted
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0;
-  int allowance_ = 0;  // of steps, for an estimate after breaks: each estimate uses up steps_a_renewal of them
+  int allowance_ = 0;  // of steps, for estimates after breaks
   bool levels_due_ = true, estimate_due_ = true, levels_anew_ = false;
   bool bonds_broke_ = false;  // since the last estimate
 };
