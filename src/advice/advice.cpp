@@ -15,6 +15,7 @@ constexpr Check checks[] = {
     without_effect,
     doubled_numbers,
     improbable_materials,
+    soft_springs,
     improbable_temperatures,
     improbable_scales,
     large_elastic_strains,

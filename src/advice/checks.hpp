@@ -43,6 +43,9 @@ std::string outline(const Situation& situation);
 // has; it names the units.
 std::string improbable_materials(const Situation& situation);
 
+// A warning for each block of an elastomer whose springs have less than half the default stiffness.
+std::string soft_springs(const Situation& situation);
+
 // A warning for each block of a metal that is initially molten, or so cold that its temperature may be in °C.
 std::string improbable_temperatures(const Situation& situation);
 

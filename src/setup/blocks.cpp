@@ -44,25 +44,10 @@ std::optional<DamageModel> damage_of(const deck::Deck& deck, const deck::Block& 
   return deck.damage_models[*section.damage_model].model;
 }
 
-// The coefficient of the springs where the deck has none, as documented for the key (deck/sections/materials.cpp). If
-// bonds break by their stretch, springs of the usual stiffness would let the tip of a crack open by motions that no
-// point's deformation gradient sees, and it would grow at half the fracture energy (inputs/fracture). An elastomer
-// would give way by such motions under pressure: its stress becomes as large as its shear modulus, beside which the
-// usual springs are soft. Silling's resist bending, too, and are less stiff.
-double usual_coefficient(const deck::Material& material, bool breaks_by_stretch) {
-  constexpr double usual = 0.01, stiff = 0.3;
-  if (breaks_by_stretch) return stiff;
-  const auto* elastomer = std::get_if<materials::Hyperelastic>(&material.law);
-  if (!elastomer) return usual;
-  const materials::Moduli moduli = elastomer->moduli();
-  const double shear_moduli = std::holds_alternative<SillingStabilization>(material.stabilization) ? 1 : 4;
-  return std::clamp(shear_moduli * moduli.shear / moduli.longitudinal(), usual, stiff);
-}
-
 Stabilization stabilization_of(const deck::Material& material, const std::optional<DamageModel>& damage) {
   const bool breaks_by_stretch = damage && !damage->ductility;
-  const double coefficient =
-      material.stabilization_coefficient.value_or(usual_coefficient(material, breaks_by_stretch));
+  const double coefficient = material.stabilization_coefficient.value_or(
+      usual_coefficient(material.law, material.stabilization, breaks_by_stretch));
   return with_coefficient(material.stabilization, coefficient);
 }
 
@@ -81,6 +66,20 @@ materials::AnyLaw law_of(const deck::Material& material, const deck::Block& sect
 }
 
 }  // namespace
+
+// If bonds break by their stretch, springs of the usual stiffness would let the tip of a crack open by motions that no
+// point's deformation gradient sees, and it would grow at half the fracture energy (inputs/fracture). An elastomer
+// would give way by such motions under pressure: its stress becomes as large as its shear modulus, beside which the
+// usual springs are soft. Silling's resist bending, too, and are less stiff.
+double usual_coefficient(const materials::AnyLaw& law, const Stabilization& stabilization, bool breaks_by_stretch) {
+  constexpr double usual = 0.01, stiff = 0.3;
+  if (breaks_by_stretch) return stiff;
+  const auto* elastomer = std::get_if<materials::Hyperelastic>(&law);
+  if (!elastomer) return usual;
+  const materials::Moduli moduli = elastomer->moduli();
+  const double shear_moduli = std::holds_alternative<SillingStabilization>(stabilization) ? 1 : 4;
+  return std::clamp(shear_moduli * moduli.shear / moduli.longitudinal(), usual, stiff);
+}
 
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud) {
   std::vector<BlockMaterial> materials;

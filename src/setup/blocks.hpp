@@ -26,6 +26,10 @@ std::vector<double> mean_spacings(const PointCloud& cloud, const Communicator& c
 void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
                     deck::Problems& problems);
 
+// The Stabilization Coefficient of a material whose section has none, as documented for the key
+// (deck/sections/materials.cpp).
+double usual_coefficient(const materials::AnyLaw& law, const Stabilization& stabilization, bool breaks_by_stretch);
+
 // One entry for each block of the mesh.
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud);
 std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud);

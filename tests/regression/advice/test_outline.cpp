@@ -66,6 +66,30 @@ TEST(Improbable, ModuliInMegapascalAreWarnedOf) {
               {"WARNING: block 'bar' has a wave speed of 4.586 m/s; solids have 100 to 20,000", "moduli in Pa"});
 }
 
+TEST(Improbable, SoftSpringsOfElastomersAreWarnedOf) {
+  for (const std::string coefficient : {"0.01", "0.2", ""}) {
+    Parts parts = flying();
+    parts.materials = section("copper", key("Material Model", "Hyperelastic") + key("Density", "1100") +
+                                            key("Bulk Modulus", "5e6") + key("Shear Modulus", "1e6") +
+                                            (coefficient.empty() ? "" : key("Stabilization Coefficient", coefficient)));
+    const bool warned =
+        told_of(parts).find("Stabilization Coefficient of 0.01; the default is 0.3") != std::string::npos;
+    EXPECT_EQ(warned, coefficient == "0.01");
+  }
+}
+
+// A rubber with a small bulk modulus has 32 m/s; with its moduli in kPa it would have 1.
+TEST(Improbable, SoftRubberIsProbable) {
+  for (const bool in_pascal : {true, false}) {
+    Parts parts = flying();
+    parts.materials = section("copper", key("Material Model", "Hyperelastic") + key("Density", "1100") +
+                                            key("Bulk Modulus", in_pascal ? "1e6" : "1e3") +
+                                            key("Shear Modulus", in_pascal ? "1e5" : "1e2"));
+    const bool warned = told_of(parts).find("m/s; elastomers have 10 to 20,000") != std::string::npos;
+    EXPECT_EQ(warned, !in_pascal);
+  }
+}
+
 TEST(Improbable, DensityInGramsPerCubicCentimeterIsWarnedOf) {
   Parts parts = flying();
   parts.materials = changed(copper(), "8930", "8.93");
