@@ -1,6 +1,8 @@
 #include "compare/series.hpp"
 
+#include <algorithm>
 #include <fstream>
+#include <string_view>
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
@@ -15,9 +17,9 @@ std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> words;
   std::size_t begin = 0;
   for (std::size_t comma; (comma = line.find(',', begin)) != std::string::npos; begin = comma + 1) {
-    words.push_back(line.substr(begin, comma - begin));
+    words.emplace_back(trimmed(std::string_view(line).substr(begin, comma - begin)));
   }
-  words.push_back(line.substr(begin));
+  words.emplace_back(trimmed(std::string_view(line).substr(begin)));
   return words;
 }
 
@@ -35,6 +37,17 @@ void read_row(const std::string& line, std::vector<Variable>& columns) {
   for (std::size_t c = 0; c < words.size(); ++c) columns[c].frames[0].push_back(number(words[c]));
 }
 
+std::vector<Variable> columns_of(const std::string& header, const std::filesystem::path& path) {
+  std::vector<Variable> columns;
+  for (const std::string& name : split(header)) {
+    if (std::ranges::find(columns, name, &Variable::name) != columns.end()) {
+      throw Error(path.string() + ": two columns have the name '" + name + "'; expected a name for each column");
+    }
+    columns.push_back({name, "row", {{}}});
+  }
+  return columns;
+}
+
 Series read_history(const std::filesystem::path& path) {
   if (const std::string why = unreadable(path); !why.empty()) throw Error(why);
   std::ifstream file(path);
@@ -45,7 +58,7 @@ Series read_history(const std::filesystem::path& path) {
     ++row;
   } while (line.starts_with("#"));
   Series series;
-  for (const std::string& name : split(line)) series.variables.push_back({name, "row", {{}}});
+  series.variables = columns_of(line, path);
   while (std::getline(file, line)) {
     ++row;
     try {

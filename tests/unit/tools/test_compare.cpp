@@ -98,6 +98,7 @@ TEST_F(CompareTool, Histories) {
   EXPECT_EQ(compare(a, b, "--relative 1e-7").status, 0);
   EXPECT_EQ(compare(a, write("c.csv", "time,energy\n0,1\n")).status, 1);
   EXPECT_EQ(compare(a, write("d.csv", "time,work\n0,1\n1,2\n2,4\n")).status, 1);
+  EXPECT_EQ(compare(a, write("spreadsheet.csv", "time, energy\r\n0, 1\r\n1, 2\r\n2, 4\r\n")).status, 0);
 }
 
 TEST_F(CompareTool, WhatCannotBeComparedEndsWithStatusTwo) {
@@ -107,7 +108,8 @@ TEST_F(CompareTool, WhatCannotBeComparedEndsWithStatusTwo) {
        {compare(a, path("none.e")), compare(a, write("text.e", "no result")), compare(a, ""),
         compare(a, a, "--relativ 1"), compare(a, a, "--relative"), compare(a, a, "--relative -1"),
         compare(history, path("none.csv")), compare(history, write("bad.csv", "time\nsoon\n")),
-        compare(history, write("ragged.csv", "time\n0,1\n"))}) {
+        compare(history, write("ragged.csv", "time\n0,1\n")),
+        compare(history, write("doubled.csv", "time,time\n0,1\n"))}) {
     EXPECT_EQ(outcome.status, 2) << outcome.text;
     EXPECT_TRUE(outcome.text.starts_with("strut-compare: ")) << outcome.text;
   }
