@@ -27,6 +27,8 @@ import numpy as np  # noqa: E402
 import scipy.ndimage  # noqa: E402
 import tifffile  # noqa: E402
 
+import script  # noqa: E402
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 sys.path[:0] = [os.path.join(ROOT, "tools", part) for part in ("shared", "voxel")]
 import exodus  # noqa: E402
@@ -50,8 +52,7 @@ class ToolTest(unittest.TestCase):
         return self.path(name)
 
     def run_tool(self, tool, *words):
-        return subprocess.run([os.path.join(ROOT, "tools", tool), *map(str, words)], capture_output=True, text=True,
-                              timeout=120)
+        return script.run(os.path.join(ROOT, "tools", tool), *words)
 
     def works(self, tool, source, *words):
         """Its output by first words, and the mesh it writes."""
