@@ -7,10 +7,13 @@ namespace strut {
 
 namespace {
 
-// Component c of the velocity that moves point i along the motion from t to t + dt.
-double imposed_velocity(const PrescribedMotion& motion, int c, const Body& body, int i, double t, double dt) {
-  if (motion.is_velocity) return value_at_point(motion.value, body, i, t + 0.5 * dt);
-  const double target = body.domain.reference(i)[c] + value_at_point(motion.value, body, i, t + dt);
+// Component c of the velocity that moves point i along the motion in its next step.
+double imposed_velocity(const PrescribedMotion& motion, int c, int i, const VelocityUpdate& update) {
+  const Body& body = update.body;
+  const auto value = [&](double time) { return value_at_point(motion.value, body, i, time); };
+  const double dt = update.steps.of(i);
+  if (motion.is_velocity) return value(update.t + 0.5 * dt);
+  const double target = body.domain.reference(i)[c] + update.steps.after(value, update.t, dt);
   return (target - body.domain.sites[i].current[c]) / dt;
 }
 
@@ -33,7 +36,7 @@ void for_each_component(const PrescribedMotion& motion, const auto& act) {
 void PrescribedMotion::change_velocities(VelocityUpdate& update) const {
   for_each_component(*this, [&](int c, int i) {
     double& v = update.body.velocity[i][c];
-    const double imposed = imposed_velocity(*this, c, update.body, i, update.t, update.steps.of(i));
+    const double imposed = imposed_velocity(*this, c, i, update);
     const double change = imposed - v;
     v = imposed;
     update.record(i, change * Vector::Unit(c));

@@ -66,21 +66,32 @@ namespace {
 // Position of a tool, and its velocity over the steps of its points, which differ by their time-step level.
 class ToolMotion {
  public:
-  ToolMotion(const RigidTool& tool, double t, double whole_step)
-      : tool_(tool), t_(t), whole_step_(whole_step), offset_(tool.offset(t)) {}
+  ToolMotion(const RigidTool& tool, double t, const PointTimeSteps& steps)
+      : tool_(tool), t_(t), steps_(steps), offset_(tool.offset(t)) {}
 
   const Vector& offset() const { return offset_; }
   const Vector& velocity(int level) {
     while (static_cast<int>(velocities_.size()) <= level) {
-      const double dt = std::ldexp(whole_step_, -static_cast<int>(velocities_.size()));
-      velocities_.push_back((tool_.offset(t_ + dt) - offset_) / dt);
+      const double dt = std::ldexp(steps_.whole, -static_cast<int>(velocities_.size()));
+      velocities_.push_back((after(dt) - offset_) / dt);
     }
     return velocities_[level];
   }
 
  private:
+  Vector after(double dt) const {
+    if (tool_.free) return tool_.offset(t_ + dt);
+    Vector sum = Vector::Zero();
+    for (int c = 0; c < 3; ++c) {
+      if (tool_.travel[c])
+        sum[c] = steps_.after([&](double time) { return (*tool_.travel[c])(0, 0, 0, time); }, t_, dt);
+    }
+    return sum;
+  }
+
   const RigidTool& tool_;
-  double t_, whole_step_;
+  double t_;
+  const PointTimeSteps& steps_;
   Vector offset_;
   std::vector<Vector> velocities_;  // by time-step level
 };
@@ -117,7 +128,7 @@ Vector correction(const Surface& at, double friction, const Vector& velocity, do
 // Calls visit(i, change of velocity) for the points of this rank that would enter the tool.
 template <class Visit>
 void for_each_change(const RigidTool& tool, const VelocityUpdate& update, const Visit& visit) {
-  ToolMotion motion(tool, update.t, update.steps.whole);
+  ToolMotion motion(tool, update.t, update.steps);
   const auto keep_out = [&](const auto& shape) {
     for (const int i : tool.points) {
       const double dt = update.steps.of(i);

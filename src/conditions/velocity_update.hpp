@@ -16,11 +16,19 @@ namespace strut {
 struct PointTimeSteps {
   double whole;                                       // s
   const std::vector<std::uint8_t>* levels = nullptr;  // of owned points; none if null or empty
-  double impulse = 1;  // time of the impulse of forces, the mean of two steps, over the next step
+  double impulse = 1;         // time of the impulse of forces, the mean of two steps, over the next step
+  bool none_follows = false;  // at the final time
 
   int level(int i) const { return !levels || levels->empty() ? 0 : (*levels)[i]; }
   double of(int i) const { return level(i) == 0 ? whole : std::ldexp(whole, -level(i)); }
   double of_impulse(int i) const { return impulse * of(i); }
+  // The value at t + dt (s) of a motion that has `value` at a time. At the final time a motion that ends there, as that
+  // of a table to its last row does, goes on as before: a stop would be part of the velocities that are output.
+  template <class Motion>
+  double after(const Motion& value, double t, double dt) const {
+    const double next = value(t + dt);
+    return none_follows && next == value(t + 2 * dt) ? 2 * value(t) - value(t - dt) : next;
+  }
 };
 
 // The changes of velocities by all conditions at the time t, and a record of them: reactions are added up at once, work

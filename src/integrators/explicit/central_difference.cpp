@@ -247,10 +247,14 @@ std::vector<std::uint8_t> CentralDifference::pushed_now() const {
 
 void CentralDifference::reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed) {
   length_.begin_levels();
-  if (!control_.subcycling || control_.fixed_dt > 0) return;
-  const std::vector<std::uint8_t> damped = damped_points(body_, conditions_);
-  report.frequency_bound =
-      multi_stepping_.choose(body_, control_.safety_factor, length_.present(body_.may_break()), {pushed, damped});
+  const PresentStep present = length_.present(body_.may_break());
+  if (!may_subcycle(control_)) {
+    if (multi_stepping_.level_count() == 0) return;
+    report.frequency_bound = multi_stepping_.drop(body_, present);  // a run that goes on without its substeps
+  } else {
+    const std::vector<std::uint8_t> damped = damped_points(body_, conditions_);
+    report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor, present, {pushed, damped});
+  }
   restrict_conditions();
   length_.take_levels(multi_stepping_);
 }
@@ -347,6 +351,7 @@ void CentralDifference::serialize_steps(Archive& archive) {
   if (!archive.loading()) return;
   new_breaks();
   restrict_conditions();
+  if (!may_subcycle(control_) && multi_stepping_.level_count() > 0) length_.ask_for_levels();
   for (MaterialBlock& block : body_.blocks) {
     if (block.in_rigid_motion) block.rest_frequency_bound = largest_frequency_bound(body_, block);
   }

@@ -74,7 +74,9 @@ class CentralDifference {
   void start(const std::vector<std::uint8_t>& pushed);
   BondBreaking* breaking() { return fracture_ ? &*fracture_ : nullptr; }
   contact::Kinematics kinematics() const { return {body_.domain, body_.velocity, body_.density}; }
-  PointTimeSteps point_steps() const { return {length_.dt(), &multi_stepping_.motion_levels()}; }
+  PointTimeSteps point_steps() const {
+    return {.whole = length_.dt(), .levels = &multi_stepping_.motion_levels(), .none_follows = length_.none_follows()};
+  }
   std::vector<std::uint8_t> pushed_now() const;
 
   void choose_load_times(double final_time);

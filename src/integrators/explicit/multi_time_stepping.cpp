@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mechanics/force_sum.hpp"
@@ -17,12 +18,21 @@ void scale(QuadraticState& state, double factor) {
   for (std::size_t n = 0; n < sizeof(QuadraticState) / sizeof(double); ++n) numbers[n] *= factor;
 }
 
-// Half of the impulse at a change of levels belongs to the interval before, half to the one after.
-void spread_impulses(Body& body, const std::vector<std::uint8_t>& before) {
+// The step after a choice of levels over the one before, as the bounds foretell it: the estimate of the critical time
+// step comes later. Before the first step there is none.
+double ratio_of_steps(const PresentStep& present, double bound, bool anew) {
+  if (present.is_first) return std::numeric_limits<double>::infinity();
+  return anew && present.bound > 0 && bound > 0 ? present.bound / bound : 1;
+}
+
+// Half of the interval before a change of levels and half of the one after give the impulse at it: that of a point
+// lasts for its share of each. `ratio`: the whole step after over the one before.
+void spread_impulses(Body& body, const std::vector<std::uint8_t>& before, double ratio) {
+  const double part_after = std::isfinite(ratio) ? ratio / (1 + ratio) : 1;
   for_each_point(0, body.owned(), [&](int i) {
     const double old_share = before.empty() ? 1 : power_of_two(-before[i]), share = body.share(i);
     if (share == old_share) return;
-    const double mean = 0.5 * (old_share + share);
+    const double mean = (1 - part_after) * old_share + part_after * share;
     if (!body.force_states.tensors.empty()) {
       for (Eigen::Array4d& column : body.force_states.tensors[i].column) column *= mean / old_share;
     }
@@ -62,7 +72,22 @@ double MultiTimeStepping::choose(Body& body, double safety_factor, const Present
   bound_ = chosen.bound;
   body.time_levels = std::move(chosen.levels);
   make_levels(body);
-  spread_impulses(body, before);
+  spread_impulses(body, before, ratio_of_steps(present, bound_, anew_));
+  return fastest_of(body);
+}
+
+double MultiTimeStepping::drop(Body& body, const PresentStep& present) {
+  const std::vector<std::uint8_t> before = std::move(*body.time_levels);
+  body.time_levels->clear();
+  make_levels(body);
+  const double fastest = fastest_of(body);
+  anew_ = true, bound_ = body.domain.communicator.max(fastest);
+  spread_impulses(body, before, ratio_of_steps(present, bound_, anew_));
+  return fastest;
+}
+
+// The largest product of frequency bound and fraction of the step of any point on this rank, 1/s.
+double MultiTimeStepping::fastest_of(Body& body) {
   double fastest = 0;
   for (MaterialBlock& block : body.blocks) {
     const double of_block = largest_frequency_bound(body, block);

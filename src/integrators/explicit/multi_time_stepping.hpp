@@ -23,6 +23,8 @@ class MultiTimeStepping {
   // frequency bound and fraction of the step of any point on this rank, 1/s. `safety_factor`: step over stable step.
   // The present step stays, unless another is much better.
   double choose(Body& body, double safety_factor, const PresentStep& present, const ActedOn& acted_on);
+  // Collective. The same for no substeps at all, from now on.
+  double drop(Body& body, const PresentStep& present);
 
   // Marks owned points too close to points with several substeps for contact to push them. Empty: no point is.
   const std::vector<std::uint8_t>& exposed() const { return exposed_; }
@@ -52,6 +54,8 @@ class MultiTimeStepping {
   StepReport forces(Body& body, int level, double dt, double time);
 
  private:
+  static double fastest_of(Body& body);
+
   // The points and lists for the times of one level.
   struct Level {
     std::vector<SelectedPoints> stressed;  // in each block: the points that are due

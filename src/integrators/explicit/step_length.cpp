@@ -55,7 +55,8 @@ void StepLength::estimate(Body& body) {
 void StepLength::choose(double time, double final_time, double contact_stiffness, bool exposed_are_pushed, Body& body) {
   previous_dt_ = dt_;
   const double left = final_time - time;
-  if (left <= 0 && dt_ > 0) {  // no step follows: the final velocities are those around a step of the usual length
+  none_follows_ = left <= 0 && dt_ > 0;
+  if (none_follows_) {  // no step follows: the final velocities are those around a step of the usual length
     if (control_.fixed_dt > 0) dt_ = control_.fixed_dt;
     return;
   }
@@ -63,8 +64,8 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
   const double growth = control_.fixed_dt > critical(contact_stiffness) ? 1.01 : renewal_growth;
   const bool estimated = estimate_due_;
   if (estimated) estimate(body);
-  levels_due_ = frequency_bound_ > growth * bound_at_estimate_ || steps_since_estimate_ >= renewal_steps ||
-                exposed_are_pushed || (bonds_broke_ && allowance_ >= 0);
+  levels_due_ = levels_due_ || frequency_bound_ > growth * bound_at_estimate_ ||
+                steps_since_estimate_ >= renewal_steps || exposed_are_pushed || (bonds_broke_ && allowance_ >= 0);
   if (control_.fixed_dt > 0) {
     // The remainder that round-off leaves after the last full step is not a step of its own.
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
@@ -102,7 +103,8 @@ void StepLength::count_step() {
 }
 
 PresentStep StepLength::present(bool bonds_may_break) const {
-  return {dt_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0, longest_stay(bonds_may_break) / control_.safety_factor};
+  return {dt_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0, longest_stay(bonds_may_break) / control_.safety_factor,
+          dt_ == 0};
 }
 
 void StepLength::take_levels(const MultiTimeStepping& chosen) {

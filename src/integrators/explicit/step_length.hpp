@@ -18,6 +18,8 @@ struct StepControl {
   bool continue_with_inverted = false;  // inverted points carry no stress but keep their mass while det F ≤ 0
 };
 
+inline bool may_subcycle(const StepControl& control) { return control.subcycling && control.fixed_dt == 0; }
+
 class StepLength {
  public:
   explicit StepLength(const StepControl& control) : control_(control) {}
@@ -25,6 +27,7 @@ class StepLength {
   double dt() const { return dt_; }                    // s, of the present or next step
   double previous_dt() const { return previous_dt_; }  // s, of the previous step; 0 before the first
   double next_time() const { return next_time_; }      // s, at the end of that step
+  bool none_follows() const { return none_follows_; }  // true at the final time
 
   // 2/ω_max now, s: the last estimate, reduced by the deformation since then and by contact of this stiffness
   // (1/s²).
@@ -45,6 +48,7 @@ class StepLength {
 
   // Time-step levels: whether to choose them anew; the data of the present step that they need; the result.
   bool levels_due() const { return levels_due_; }
+  void ask_for_levels() { levels_due_ = true; }
   PresentStep present(bool bonds_may_break) const;
   void begin_levels() { levels_due_ = false, estimate_due_ = true; }
   void take_levels(const MultiTimeStepping& chosen);
@@ -58,7 +62,8 @@ class StepLength {
 
   StepControl control_;
   CriticalTimeStep critical_time_step_;
-  double dt_ = 0, previous_dt_ = 0, next_time_ = 0;                // s
+  double dt_ = 0, previous_dt_ = 0, next_time_ = 0;  // s
+  bool none_follows_ = false;
   double least_chosen_ = std::numeric_limits<double>::infinity();  // s, since the last estimate
   double bound_of_step_ = 0;                                       // 1/s, the bound for which levels were chosen, and
   double step_of_bound_ = 0;                                       // s, the step that resulted

@@ -11,6 +11,7 @@ namespace strut {
 struct PresentStep {
   double bound;  // 1/s, the frequency bound that it was chosen for; 0: none yet
   double slack;  // factor by which the bound may grow
+  bool is_first = false;
 };
 
 // Marks of owned points on which something acts once per step, whatever their levels. Empty: none.

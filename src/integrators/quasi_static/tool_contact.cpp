@@ -16,8 +16,11 @@ constexpr double penalty_factor = 1;
 // Tangential penalty, relative to ε.
 constexpr double tangential_share = 0.5;
 
-constexpr double most_penetration = 1e-4;  // spacings
-constexpr double most_softness = 2e-2;     // drag minus multiplier of sticking points, over the largest friction
+// Rounds of the multipliers end when the penetration is this small, in spacings, and in parts of the compression of a
+// cell by the largest pressure: a body that is strained by 1e-4 is pressed by less than 1e-4 of a spacing. The pressure
+// of points that hardly touch is exact to round-off alone.
+constexpr double most_penetration = 1e-4, most_of_compression = 1e-2, least_penetration = 1e-8;
+constexpr double most_softness = 2e-2;  // drag minus multiplier of sticking points, over the largest friction
 
 constexpr double just_touching = 1e-9;  // spacings
 
@@ -117,7 +120,9 @@ double ToolContact::violation(double largest_pressure) const {
     const double friction = tools_[contact.tool].friction;
     const double soft =
         contact.sticks ? (contact.now.drag - contact.tangential).norm() / (friction * largest_pressure) : 0;
-    largest = std::max({largest, std::abs(contact.gap) / (most_penetration * contact.spacing), soft / most_softness});
+    const double allowed = std::clamp(most_of_compression * largest_pressure / contact.penalty,
+                                      least_penetration * contact.spacing, most_penetration * contact.spacing);
+    largest = std::max({largest, std::abs(contact.gap) / allowed, soft / most_softness});
   }
   return largest;
 }

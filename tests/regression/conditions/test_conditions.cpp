@@ -49,6 +49,29 @@ TEST(Condition, PrescribedDisplacementIsReachedExactly) {
   EXPECT_GT(end.external, 0);
 }
 
+// A table that ends at the final time describes the motion up to it. The velocities around that time, which the kinetic
+// energy and the reaction of the last row need, are those of the same motion that goes on. The third table ends before.
+TEST(Condition, TableThatEndsAtTheFinalTimeDoesNotStopTheMotion) {
+  const auto end_of = [](const std::string& value, bool is_tool) {
+    const RunFolder folder;
+    Parts parts;
+    parts.conditions = along("hold", "Prescribed Displacement", "foot", "z", "0") +
+                       (is_tool ? section("push", key("Type", "Rigid Plane") + key("Point", "0 0 5.5e-3") +
+                                                      key("Normal", "0 0 -1") + key("Travel Z", value))
+                                : along("push", "Prescribed Displacement", "top", "z", value));
+    Simulation run(folder, parts);
+    return run.go();
+  };
+  for (const bool is_tool : {false, true}) {
+    const Ledger goes_on = end_of("-20*t", is_tool), ends = end_of("table(t, 0, 0, 5e-6, -1e-4)", is_tool),
+                 stopped = end_of("table(t, 0, 0, 4e-6, -8e-5)", is_tool);
+    // The table's value is that of the product but for round-off.
+    EXPECT_NEAR(ends.kinetic / goes_on.kinetic, 1, 1e-9) << is_tool;
+    EXPECT_NEAR(ends.momentum[2] / goes_on.momentum[2], 1, 1e-9) << is_tool;
+    EXPECT_GT(std::abs(stopped.momentum[2] / goes_on.momentum[2] - 1), 1e-2) << is_tool;
+  }
+}
+
 TEST(Condition, PrescribedVelocityIsFollowed) {
   const RunFolder folder;
   Parts parts;

@@ -49,6 +49,24 @@ std::string all_of_foot() {
          along("low", "Prescribed Displacement", "foot", "z", "0");
 }
 
+// However little a plane presses a bar, it does so by its travel: as if its end were moved. What is left is the
+// penetration, a hundredth of the compression of the last cell, of six.
+TEST(SlowLoading, APlanePressesByItsTravel) {
+  for (const std::string travel : {"-1e-8*t", "-1e-6*t", "-5e-5*t"}) {
+    const auto force = [&](const std::string& press) {
+      Parts parts;
+      parts.conditions = all_of_foot() + press;
+      return files_of(parts, key("Number of Load Steps", "1"), {"Reaction_Z(low)"})
+          .history.at("Reaction_Z(low)")
+          .back();
+    };
+    const double by_plane = force(section("press", key("Type", "Rigid Plane") + key("Point", "0 0 5.5e-3") +
+                                                       key("Normal", "0 0 -1") + key("Travel Z", travel)));
+    const double by_end = force(along("press", "Prescribed Displacement", "top", "z", travel));
+    EXPECT_NEAR(by_plane / by_end, 1, 0.01 / 6) << travel;
+  }
+}
+
 // A bar on its held foot, pressed by a plane. Forces of all conditions cancel but for what the tolerance leaves, 1e-6
 // of them at each of 96 points at the most.
 TEST(SlowLoading, WritesFramesAndReactions) {

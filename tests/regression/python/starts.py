@@ -216,6 +216,47 @@ class Starts(InFolder):
         os.remove("first.restart")
         self.assertGoesOn(whole, strut.run(second, continued=True))
 
+    def two_stiffnesses(self):
+        """A free bar that vibrates, one end of which is so stiff that its points are subcycled."""
+        places = [(x, y, z) for x in range(10) for y in range(4) for z in range(4)]
+        rows = [[1e-3 * (n + 0.5) for n in place] + [1 + (place[0] > 7), 1e-9] for place in places]
+        np.savetxt("bar.txt", rows, fmt=["%.17g"] * 3 + ["%d", "%.17g"])
+        solid = lambda density, modulus: {"Material Model": "Elastic Correspondence", "Density": density,
+                                          "Young's Modulus": modulus, "Poisson's Ratio": 0.3}
+        of = lambda number, material: {"Block Names": f"block_{number}", "Material": material, "Horizon Factor": 1.75}
+        return strut.Deck({
+            "Discretization": {"Type": "Text File", "Input Mesh File": "bar.txt"},
+            "Materials": {"soft": solid(1200.0, 3e9), "stiff": solid(7800.0, 210e9)},
+            "Blocks": {"low": of(1, "soft"), "high": of(2, "stiff")},
+            "Boundary Conditions": {"blow": {"Type": "Initial Velocity", "Coordinate": "x", "Value": "3*sin(800*x)"}},
+            "Solver": {"Final Time": 2e-5, "Verlet": {"Subcycling": True}},
+            "History": {"Frequency": 1, "Variables": {"Max_Displacement": True}},
+            "Restart": {"Filename": "first.restart"},
+            "Output": {"Output Filename": "bar.e", "Output Frequency": 1, "Output Variables": {"Time_Step_Level": True}}})
+
+    def test_a_strained_body_starts_with_substeps(self):
+        """Its momentum and its energy stay those of the checkpoint: nothing acts on it."""
+        deck = self.two_stiffnesses()
+        first = strut.run(deck)
+        run = strut.run(start(deck, "first.restart", Boundary_Conditions={}, Restart=None, Output=None))
+        self.assertGreater(first.fields["Time_Step_Level"].max(), 0)
+        elastic = first.history["Elastic_Energy"][-1]
+        self.assertGreater(elastic, 0)
+        # That of substeps of so coarse a bar, 0.07; by an impulse of other weights 0.58.
+        worst = lambda run: np.abs(run.history["Balance_Error"]).max()
+        self.assertLess(worst(run), worst(first))
+        largest = np.sqrt(2 * 1e-9 * (128 * 1200 + 32 * 7800) * elastic)
+        self.assertLess(np.ptp(run.history["Momentum_X"]), 1e-9 * largest)
+
+    def test_a_run_goes_on_without_its_substeps(self):
+        deck = self.two_stiffnesses()
+        ended(deck, 20)
+        changed = but(deck, Solver={**deck["Solver"], "Verlet": {"Subcycling": False}})
+        run = strut.run(changed, continued=True)
+        self.assertEqual(run.fields["Time_Step_Level"].max(), 0)
+        without = strut.run(but(changed, Restart=None, Output=None))
+        self.assertAlmostEqual(run.history["Step_Size"][-1] / without.history["Step_Size"][-1], 1, delta=0.02)
+
     def test_a_start_at_another_time_keeps_the_velocities_of_the_steps(self):
         """With a step as long: those at the time of the checkpoint, to which loads have their part, are the mean of both mid-steps."""
         load = {"Type": "Body Force", "Node Set": "all", "Coordinate": "z", "Value": "1e10"}
