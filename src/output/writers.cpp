@@ -179,7 +179,7 @@ bool is_over(const deck::Deck& deck, const Communicator& communicator) {
     } else if (deck.history.has_file()) {
       last = io::last_time_of_history(deck.history.file);
     }
-    over = last && *last >= deck.solver.final_time ? 1 : 0;
+    over = last && *last >= deck.next_solver.value_or(deck.solver).final_time ? 1 : 0;
   }
   return communicator.max(over) > 0;
 }
