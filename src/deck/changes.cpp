@@ -63,11 +63,22 @@ constexpr std::array free_to_change = {"Solver > Final Time",
                                        "Restart",
                                        "Watch"};
 
+// True for columns of the history that follow the run from row to row: means of forces, and speeds of cracks.
+bool has_a_past(const std::string& path, const Texts& texts) {
+  constexpr std::string_view parent = "History > Variables > ";
+  constexpr std::array with_past = {"Reaction_", "Instant_Reaction_", "Contact_Force_", "Instant_Contact_Force_",
+                                    "Crack_Tip", "Crack_Speed"};
+  if (!path.starts_with(parent) || text_at(texts, path) != "true") return false;
+  const std::string column = path.substr(parent.size());
+  return std::ranges::any_of(with_past, [&](const char* one) { return column.starts_with(one); });
+}
+
 bool is_accepted(const std::string& path, const Texts& before, const Texts& now) {
   if (path == "Solver > Verlet > Mass Scaling dt") return false;  // moved points had another mass
   if (std::any_of(free_to_change.begin(), free_to_change.end(), [&](const char* one) { return is_within(path, one); }))
     return true;
   if (path.starts_with("Solver > QuasiStatic > ")) return true;
+  if (has_a_past(path, before) || has_a_past(path, now)) return false;
   for (const char* const sink : {"Output", "History"}) {  // a file that begins, or ends, with the new part of the run
     if (is_within(path, sink) && before.contains(sink) != now.contains(sink)) return true;
   }

@@ -17,15 +17,18 @@ Schedule::Schedule(bool enabled, std::optional<int> frequency, std::optional<dou
 
 bool Schedule::due(int step, double time) const {
   if (!enabled_) return false;
+  if (time == due_at_) return true;
   if (frequency_) return step % *frequency_ == 0;
   return interval_ && time >= next_time_ - round_off * *interval_;
 }
 
-void Schedule::serialize(Archive& archive, const std::string& name, double time) {
-  double interval = interval_.value_or(0), next = next_time_;
+void Schedule::serialize(Archive& archive, const std::string& name, int step, double time) {
+  double interval = interval_.value_or(0), next = next_time_, due_at = due(step, time) ? time : never;
   archive.number(name + "_interval", interval);
   archive.number(name + "_next", next);
+  archive.number(name + "_due_at", due_at);
   if (!archive.loading()) return;
+  due_at_ = due_at;
   if (interval == interval_.value_or(0)) {
     next_time_ = next;
   } else {

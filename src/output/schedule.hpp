@@ -1,6 +1,7 @@
 // When output is due: every so many steps, or at a time interval of the simulation (s).
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -8,13 +9,16 @@
 
 namespace strut {
 
+constexpr double never = -std::numeric_limits<double>::infinity();
+
 class Schedule {
  public:
   Schedule(bool enabled, std::optional<int> frequency, std::optional<double> interval, double initial_time);
 
   bool due(int step, double time) const;
-  // `time`: of the archive. A restored schedule with another interval starts anew there.
-  void serialize(Archive& archive, const std::string& name, double time);
+  // `step`, `time`: of the archive. A restored schedule with another interval or frequency starts anew there. Output
+  // that was due there by the former one stays due: it comes after the archive.
+  void serialize(Archive& archive, const std::string& name, int step, double time);
 
   void done(double time);  // the next time is the first multiple of the interval after `time`
 
@@ -23,6 +27,7 @@ class Schedule {
   std::optional<int> frequency_;
   std::optional<double> interval_;
   double initial_time_, next_time_;
+  double due_at_ = never;  // s, also due at this time
 };
 
 }  // namespace strut

@@ -29,7 +29,7 @@ void FieldWriter::write(double time, const Body& body) {
   last_ = time;
 }
 
-void FieldWriter::serialize(Archive& archive, double time) {
+void FieldWriter::serialize(Archive& archive, int step, double time) {
   if (writer_) {
     writer_->sync();
     before_ = writer_->frames(), sum_ = writer_->sum();
@@ -37,7 +37,7 @@ void FieldWriter::serialize(Archive& archive, double time) {
   archive.number("frames", before_);
   archive.number("frames_sum", sum_);
   archive.number("last_frame", last_);
-  schedule.serialize(archive, "frames", time);
+  schedule.serialize(archive, "frames", step, time);
 }
 
 History::History(const deck::Deck& deck, const OutputVariables& variables)
@@ -157,7 +157,7 @@ void History::write(const Ledger& now, const Reactions& reactions, const contact
   last_ = now.time;
 }
 
-void History::serialize(Archive& archive, double time) {
+void History::serialize(Archive& archive, int step, double time) {
   if (file_) {
     file_->sync();
     before_ = file_->bytes(), sum_ = file_->sum();
@@ -165,7 +165,7 @@ void History::serialize(Archive& archive, double time) {
   archive.number("history_bytes", before_);
   archive.number("history_sum", sum_);
   archive.number("last_line", last_);
-  schedule.serialize(archive, "history", time);
+  schedule.serialize(archive, "history", step, time);
   for (CrackTip& crack : cracks_) crack.serialize(archive);
   means_of_forces_.serialize(archive);
 }
@@ -179,7 +179,7 @@ bool is_over(const deck::Deck& deck, const Communicator& communicator) {
     } else if (deck.history.has_file()) {
       last = io::last_time_of_history(deck.history.file);
     }
-    over = last && *last >= deck.solver.final_time ? 1 : 0;
+    over = last && *last >= deck.next_solver.value_or(deck.solver).final_time ? 1 : 0;
   }
   return communicator.max(over) > 0;
 }

@@ -1,7 +1,6 @@
 // Result files of a run: frames of the fields, and lines of the history.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,8 +15,6 @@
 
 namespace strut {
 
-constexpr double never = -std::numeric_limits<double>::infinity();
-
 // Writes the frames of the result file.
 class FieldWriter {
  public:
@@ -26,7 +23,7 @@ class FieldWriter {
   // Collective. Replaces the file; a resumed run appends to it.
   void open(const Body& body);
   void write(double time, const Body& body);  // collective
-  void serialize(Archive& archive, double time);
+  void serialize(Archive& archive, int step, double time);
 
   bool has(double time) const { return time == last_; }  // the last frame was of this time
   bool enabled() const { return enabled_; }
@@ -63,7 +60,7 @@ class History {
   void gather(const StepImpulses& impulses, const contact::Contact& contact, const Domain& domain);
   // Collective.
   void write(const Ledger& now, const Reactions& reactions, const contact::Contact& contact, const Body& body);
-  void serialize(Archive& archive, double time);
+  void serialize(Archive& archive, int step, double time);
 
   bool has(double time) const { return time == last_; }
   bool enabled() const { return enabled_; }
@@ -106,9 +103,9 @@ struct OutputWriters {
     history.open(body);
   }
   bool due(int step, double time) const { return frames.schedule.due(step, time) || history.schedule.due(step, time); }
-  void serialize(Archive& archive, double time) {
-    frames.serialize(archive, time);
-    history.serialize(archive, time);
+  void serialize(Archive& archive, int step, double time) {
+    frames.serialize(archive, step, time);
+    history.serialize(archive, step, time);
   }
   // Collective. Writes a frame and a line of history if they are due, or if it is the last time. `reactions`: called if
   // a line is written. Returns the ledger if either is written.

@@ -17,11 +17,11 @@ RanksOfPoints by_ids(const Domain& domain, const std::vector<int>& ranks) {
   return all;
 }
 
-Snapshot saved(const ExplicitRun& run, double time) {
+Snapshot saved(const ExplicitRun& run, int step, double time) {
   Snapshot snapshot;
   Archive archive = Archive::saving_to(snapshot);
   run.solver->serialize(archive);
-  run.writers->serialize(archive, time);
+  run.writers->serialize(archive, step, time);
   return snapshot;
 }
 
@@ -48,19 +48,20 @@ void make_anew(const ExplicitRun& run, const std::vector<int>& ranks) {
 void repartition(const ExplicitRun& run, const std::vector<int>& ranks) {
   static Teuchos::Time& timer = phase("Another partition");
   const Timed timed(timer);
+  const int step = run.solver->steps();
   const double time = run.solver->time();
-  Snapshot kept = saved(run, time);
+  Snapshot kept = saved(run, step, time);
   const RanksOfPoints where = by_ids(run.scene->body.domain, ranks);
   try {
     make_anew(run, ranks);
   } catch (const Error& error) {
     throw LostState(error.what());
   }
-  Snapshot here = saved(run, time);
+  Snapshot here = saved(run, step, time);
   move_snapshot(std::move(kept), where, here, run.scene->body.domain.communicator);
   Archive archive = Archive::loading_from(here);
   run.solver->serialize(archive);
-  run.writers->serialize(archive, time);
+  run.writers->serialize(archive, step, time);
   run.writers->open(run.scene->body);
 }
 

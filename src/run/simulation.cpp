@@ -160,7 +160,7 @@ void Run::Parts::open(Start start) {
     with_solver([&](auto& solver) { solver.serialize(archive); });
     monitor->serialize(archive);
     balance.serialize(archive, scene->body);
-    writers->serialize(archive, time());
+    writers->serialize(archive, number_of_steps(), time());
   });
   if (start == Start::continued && checkpoint_exists(deck, communicator)) {
     checkpoint->load();
@@ -266,12 +266,12 @@ void Run::Parts::hand_over() {
   say(communicator, from.str());
   Snapshot kept;
   Archive saved = Archive::saving_to(kept);
-  writers->serialize(saved, time());
+  writers->serialize(saved, number_of_steps(), time());
   close();
   writers.emplace(deck, output_variables_of(deck, scene->body, scene->contact));
   writers->history.keep_rows(history);
   Archive restored = Archive::loading_from(kept);
-  writers->serialize(restored, time());
+  writers->serialize(restored, number_of_steps(), time());
   equilibria.reset();
   balance = Balance(deck);
   make_solver();

@@ -90,10 +90,18 @@ double sum_of(const NetcdfLists& file, const std::string& name) {
   return sum.value();
 }
 
-double sum_of_head(const NetcdfLists& file, const Snapshot& snapshot) {
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// Of all numbers of the file, also those that nobody asks for.
+double sum_of_head(const NetcdfLists& file) {
   CheckSum sum;
   sum.add(file.text("deck"));
-  for (const auto& [name, value] : snapshot.numbers) sum.add(file.number(name_of_number(name)));
+  for (const std::string& name : lines_of(file.text(name_of_numbers))) sum.add(file.number(name_of_number(name)));
   return sum.value();
 }
 
@@ -104,7 +112,7 @@ void check_sums(const fs::path& path, const NetcdfLists& file, const Snapshot& s
     if (next < sums.size() && sums[next++] == sum) return;
     throw Error(path.string() + ": is damaged: the check sum of " + what + " is not that of its contents");
   };
-  check(sum_of_head(file, snapshot), "its numbers");
+  check(sum_of_head(file), "its numbers");
   for (const auto& [name, value] : snapshot.shares) check(sum_of<double>(file, name_of_share(name)), "'" + name + "'");
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
     const Snapshot::Group& group = snapshot.groups[g];
@@ -223,13 +231,6 @@ std::string read_checkpoint(const fs::path& newest, const Communicator& communic
 
 namespace {
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
 // A file of a run whose deck may be another one, on rank 0: of its lists, those of a snapshot.
 class PartsOfFile {
  public:
@@ -239,10 +240,7 @@ class PartsOfFile {
         groups_(lines_of(file.text(name_of_groups))),
         lists_(lines_of(file.text(name_of_lists))),
         sums_(file.reals(name_of_sums)) {
-    CheckSum head;
-    head.add(file.text("deck"));
-    for (const std::string& name : lines_of(file.text(name_of_numbers))) head.add(file.number(name_of_number(name)));
-    if (sums_.size() != 1 + lists_.size() || sums_[0] != head.value()) damaged("its numbers");
+    if (sums_.size() != 1 + lists_.size() || sums_[0] != sum_of_head(file)) damaged("its numbers");
   }
 
   // The number of the group in the file, −1: it is not there.

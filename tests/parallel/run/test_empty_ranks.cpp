@@ -24,7 +24,7 @@ void save_and_restore(Solver& solver, OutputWriters& writers) {
   Archive saves = Archive::saving_to(snapshot), restores = Archive::loading_from(snapshot);
   for (Archive* archive : {&saves, &restores}) {
     solver.serialize(*archive);
-    writers.serialize(*archive, solver.time());
+    writers.serialize(*archive, solver.steps(), solver.time());
   }
 }
 

@@ -1,6 +1,8 @@
 // A run that goes on writes the row and the frame at its checkpoint anew: they are the same to the last byte.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "output/observables.hpp"
@@ -57,6 +59,36 @@ TEST_P(Restored, RunWritesTheSameRowAndFrame) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Restored, testing::ValuesIn(all_scenes()),
                          [](const auto& scene) { return scene.param.name; });
+
+// Another final time changes the default intervals; other keys the given ones. What is written stays.
+TEST(Continued, RowAndFrameAtTheCheckpointStayWhenTimesOfOutputChange) {
+  for (const auto& [before, now] : {std::pair<std::string, std::string>{"", ""},
+                                    {key("Frequency", "2"), key("Frequency", "3")},
+                                    {key("Interval", "2e-6"), key("Interval", "3e-6")}}) {
+    const RunFolder folder;
+    folder.write("points.txt", points_of_scenes());
+    AnyScene scene = all_scenes().front();
+    const auto deck = [&](const std::string& when, const std::string& end) {
+      const std::string frames = when.empty() ? "" : changed(when, "name=\"", "name=\"Output ");
+      scene.parts.output = key("Output Filename", (folder / "run.e").string()) + frames +
+                           section("Output Variables", key("Displacement", "true"));
+      scene.parts.history = key("Filename", (folder / "run.csv").string()) + when + section("Variables", "");
+      scene.parts.times = key("Final Time", end);
+      scene.parts.verlet = key("Fixed dt", "2e-8");
+      return folder.write("deck.xml",
+                          scene.text(section("Restart", key("Filename", (folder / "run.restart").string()))));
+    };
+    testing::internal::CaptureStdout();
+    EXPECT_TRUE(run(deck(before, "4e-6"), folder.world));
+    folder.world.barrier();
+    EXPECT_TRUE(run(deck(now, "8e-6"), folder.world, Start::continued));
+    testing::internal::GetCapturedStdout();
+    for (const std::vector<double>& times :
+         {read_history(folder / "run.csv").at("Time"), io::read_result(folder / "run.e").times}) {
+      EXPECT_EQ(std::ranges::count_if(times, [](double t) { return std::abs(t - 4e-6) < 1e-12; }), 1) << before;
+    }
+  }
+}
 
 }  // namespace
 }  // namespace strut::regression

@@ -78,5 +78,32 @@ TEST(Schedule, RoundOffNeitherLosesNorRepeatsAnInterval) {
   }
 }
 
+// The one that a run goes on with, from a checkpoint of another one.
+Schedule restored(Schedule from, Schedule to, int step, double time) {
+  Snapshot kept;
+  Archive saves = Archive::saving_to(kept), restores = Archive::loading_from(kept);
+  from.serialize(saves, "rows", step, time);
+  to.serialize(restores, "rows", step, time);
+  return to;
+}
+
+// The checkpoint at a time comes before the output of that time.
+TEST(Schedule, OutputThatIsDueAtACheckpointStaysDueUnderAnotherSchedule) {
+  const auto at_interval = [](double interval) { return Schedule(true, std::nullopt, interval, 0); };
+  const auto every = [](int frequency) { return Schedule(true, frequency, std::nullopt, 0); };
+  for (Schedule before : {at_interval(2), every(4)}) {
+    for (const Schedule& now : {at_interval(2), at_interval(1), at_interval(4), at_interval(3), every(4), every(3)}) {
+      before.done(2);
+      Schedule schedule = restored(before, now, 4, 4);
+      EXPECT_TRUE(schedule.due(4, 4));
+      schedule.done(4);
+      EXPECT_FALSE(schedule.due(5, 4.5));
+    }
+    before.done(4);
+    EXPECT_FALSE(restored(before, at_interval(3), 5, 5).due(5, 5));
+    EXPECT_TRUE(restored(before, at_interval(3), 5, 5).due(6, 6));
+  }
+}
+
 }  // namespace
 }  // namespace strut

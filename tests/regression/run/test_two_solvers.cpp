@@ -115,6 +115,25 @@ TEST(TwoSolvers, ErrorsOfTheStepsComeBeforeTheEquilibria) {
   }
 }
 
+// A result that ends between the final times of both solvers is not that of a completed run: --continue begins anew.
+TEST(TwoSolvers, RunThatEndsInTheStepsIsNotOver) {
+  Parts parts;
+  parts.conditions = held;
+  const RunFolder folder;
+  parts.history = key("Filename", (folder / "history.csv").string()) + section("Variables", "");
+  const std::string shorter = deck_of(parts), longer = changed(shorter, "1.000005", "1.00001");
+  testing::internal::CaptureStdout();
+  EXPECT_TRUE(run(folder.write("deck.xml", shorter), folder.world));
+  EXPECT_TRUE(run(folder.write("deck.xml", longer), folder.world, Start::continued));
+  EXPECT_EQ(read_history(folder / "history.csv").at("Time").back(), 1.00001);
+  EXPECT_TRUE(run(folder / "deck.xml", folder.world, Start::continued));
+  const std::string said = testing::internal::GetCapturedStdout();
+  if (folder.world.rank() != 0) return;
+  const std::size_t over = said.find("is of a run that is over"), anew = said.find("the run begins anew");
+  EXPECT_NE(anew, std::string::npos) << said;
+  EXPECT_TRUE(over != std::string::npos && over > anew) << said;
+}
+
 // By default each solver fills its own time, however much shorter that of the steps is.
 TEST(TwoSolvers, BothWriteByDefault) {
   Parts parts;

@@ -752,5 +752,21 @@ TEST(Changes, OfTimesStepsAndOutputAreAcceptedAndThoseOfLoadsTold) {
             std::vector<std::string>{"Boundary Conditions > pull > Value: 5 before, 6 now"});
 }
 
+// A history may begin or end with the new part of a run, unless it has columns that follow the run from row to row.
+TEST(Changes, OfAHistoryWithForcesOrCracksAreRefusedByItsColumns) {
+  const std::size_t begin = full_deck.find("<ParameterList name=\"History\">");
+  std::string without = full_deck;
+  without.erase(begin, full_deck.rfind("</ParameterList>") - begin);
+  const Changes ends = changes(full_deck, without);
+  EXPECT_EQ(ends.accepted, std::vector<std::string>{"History: a section before, nothing now"});
+  EXPECT_TRUE(ends.refused.empty());
+  for (const std::string column : {"Reaction_Z(wall)", "Instant_Reaction_Z(wall)", "Contact_Force_X(foam:plate)",
+                                   "Instant_Contact_Force_X(foam:plate)", "Crack_Tip(notch)", "Crack_Speed(notch)"}) {
+    const std::string with = changed(full_deck, "Max_Displacement", column), key = "History > Variables > " + column;
+    EXPECT_EQ(changes(with, without).refused, std::vector<std::string>{key + ": true before, nothing now"});
+    EXPECT_EQ(changes(without, with).refused, std::vector<std::string>{key + ": nothing before, true now"});
+  }
+}
+
 }  // namespace
 }  // namespace strut::deck

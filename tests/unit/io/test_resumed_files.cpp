@@ -183,6 +183,15 @@ TEST_F(Generations, TheOneBeforeIsReadWhereTheNewestIsDamagedOrGone) {
   EXPECT_FALSE(fs::exists(file) || fs::exists(before_of(file)));
 }
 
+// The check sum is of all numbers of the file, whether they are asked for or not.
+TEST_F(Generations, NumbersThatNobodyAsksForAreNoDamage) {
+  Snapshot more = snapshot(1), found = snapshot(0);
+  more.numbers["crack"] = 7;
+  write_checkpoint(file, world, more, "the deck");
+  EXPECT_EQ(error_of([&] { read_checkpoint(file, world, found); }), "");
+  EXPECT_EQ(found.numbers.at("time"), 1);
+}
+
 // A bit in each eighth byte of the values: whichever list has it is named.
 TEST_F(Generations, EachListHasItsCheckSum) {
   write(1.25);
