@@ -117,6 +117,12 @@ class Surfaces(InFolder):
         bricks(self.folder / "block.stl", (0, 4e-3, 0, 3e-3, 0, 2e-3))
         self.assertIn(f"{8 * 6 * 4}, each", self.works("block.stl", "out.g", "--voxel-size", 5e-4))
 
+    def test_a_block_that_fills_its_box_is_whole_in_grey(self):
+        bricks(self.folder / "block.stl", (0, 4e-3, 0, 3e-3, 0, 2e-3))
+        done = self.run_tool("voxels", "block.stl", "out.g", "--voxel-size", 5e-4, "--cells", 2, "--grey")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertAlmostEqual(self.volume_of(done.stdout) / 24e-9, 1, 5)
+
     def test_lengths_of_the_file_have_a_unit(self):
         sphere(self.folder / "sphere.stl", 1.0)
         printed = self.works("sphere.stl", "out.g", "--voxel-size", 1e-4, "--units", "mm")
@@ -146,6 +152,17 @@ class Arrays(InFolder):
         np.save(self.folder / "bool.npy", values.transpose() > 50)
         done = self.run_tool("voxels", "bool.npy", "c.g", "--voxel-size", 1e-3)
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_grey_needs_void_or_its_level(self):
+        values = np.random.default_rng(1).integers(100, 255, (6, 5, 4)).astype(np.uint8)
+        values[:3] = 0
+        np.save(self.folder / "a.npy", values)
+        words = ("a.npy", "a.g", "--voxel-size", 1e-3, "--threshold", 50, "--crop", 0.5, 1, 0, 1, 0, 1, "--cells", 2, "--grey")
+        done = self.run_tool("voxels", *words)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertIn("nothing tells the level of void; expected --grey VOID SOLID, or a larger --crop", done.stderr)
+        done = self.run_tool("voxels", *words, 0, 100)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_other_arrays_are_refused(self):
         np.save(self.folder / "flat.npy", np.ones((3, 4)))
