@@ -2,6 +2,7 @@
 //   strut-point deck.xml --material copper --uniaxial-stress 1e3 0.2
 //   strut-point deck.xml --uniaxial-strain 1e5 -0.05 --steps 200
 //   strut-point deck.xml --path stress path.csv --steps 50
+// The point starts at the Initial Temperature of the material's blocks.
 // A path is linear between its rows; --steps divides each interval (default 1; for a uniaxial path 1000).
 // Stress is the unrotated Cauchy stress, strain is logarithmic; components xx yy zz xy yz zx, shear as tensor
 // components. Exit status: 0, or 1 with one error message if the request is wrong or the law does not converge.
@@ -11,6 +12,7 @@
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -125,16 +127,45 @@ Request parse(const std::vector<std::string>& all) {
 
 // ---- the point
 
-const materials::AnyLaw& law_of(const deck::Deck& deck, const std::string& material) {
-  if (material.empty() && deck.materials.size() == 1) return deck.materials.front().law;
+const deck::Material& material_of(const deck::Deck& deck, const std::string& material) {
+  if (material.empty() && deck.materials.size() == 1) return deck.materials.front();
   std::vector<std::string> names;
   for (const auto& candidate : deck.materials) {
-    if (candidate.name == material) return candidate.law;
+    if (candidate.name == material) return candidate;
     names.push_back(candidate.name);
   }
   const std::string there = deck.file.string() + " has the materials " + joined(names);
   if (material.empty()) throw Error(there + "; choose one with --material");
   throw Error("--material '" + material + "'" + did_you_mean(material, names) + ": " + there);
+}
+
+// The initial temperature of the blocks of a material, K; that of a room if no block has the material.
+double temperature_of(const deck::Deck& deck, const deck::Material& material) {
+  std::optional<double> found;
+  bool differ = false;
+  std::ostringstream told;
+  for (const deck::Block& block : deck.blocks) {
+    if (&deck.materials[block.material] != &material) continue;
+    const double own = block.initial_temperature.value_or(materials::room_temperature);
+    told << (found ? ", " : "") << block.name << " at " << own << " K";
+    differ = differ || (found && *found != own);
+    found = own;
+  }
+  if (differ) {
+    throw Error(deck.file.string() + ": blocks of the material " + material.name +
+                " start at different temperatures (" + told.str() + "); expected one Blocks > Initial Temperature");
+  }
+  return found.value_or(materials::room_temperature);
+}
+
+// The law of a material as its blocks start.
+materials::AnyLaw law_of(const deck::Deck& deck, const deck::Material& material) {
+  materials::AnyLaw law = material.law;
+  const auto set_temperature = [&]<class L>(L& one) {
+    if constexpr (materials::tells_heat<L>) one.set_initial_temperature(temperature_of(deck, material));
+  };
+  std::visit(set_temperature, law);
+  return law;
 }
 
 void print_values(const Symmetric& values) {
@@ -192,7 +223,8 @@ void follow(const Path& path, const L& law) {
 
 void drive(const Request& request) {
   const deck::Deck deck = deck::read(request.deck, Communicator());
-  std::visit([&](const auto& law) { follow(request.path, law); }, law_of(deck, request.material));
+  const materials::AnyLaw law = law_of(deck, material_of(deck, request.material));
+  std::visit([&](const auto& one) { follow(request.path, one); }, law);
 }
 
 }  // namespace

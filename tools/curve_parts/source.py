@@ -11,7 +11,8 @@ from strut_tools import Parser, fail, nearest
 
 from . import extent
 
-FORCES = re.compile(r"(?:Instant_)?(Reaction|Contact_Force)_([XYZ])\((.+)\)")
+INSTANT = "Instant_"
+FORCES = re.compile(rf"(?:{INSTANT})?(Reaction|Contact_Force)_([XYZ])\((.+)\)")
 LAYERS = re.compile(r"Mean_(Velocity|Coordinate)_([XYZ])\((.+) (\d+)\)")
 
 
@@ -23,7 +24,7 @@ def parser_of(about, kind=Parser):
     add("out", nargs="?", default=".", help="folder to write to (default: this one)")
     add("--results", default=".", metavar="FOLDER", help="that the run was started from (default: this one)")
     add("--force", metavar="COLUMN", help="of the history, N (default: its first reaction or contact force along the axis)")
-    add("--other", metavar="COLUMN", help="the force at the other end, N (default: the second one)")
+    add("--other", metavar="COLUMN", help="the force at the other end, N (default: the next one along the axis)")
     add("--shortening", metavar="COLUMN|EXPRESSION", help="m (default: mean displacements, layers or the deck's motion)")
     add("--axis", choices=("x", "y", "z"), help="of compression (default: that of the force)")
     add("--block", metavar="NAME", help="that is crushed")
@@ -64,7 +65,8 @@ def column(table, name, option):
 
 
 def forces(table, words):
-    """The names of the force columns along the axis, the chosen ones first; and the axis, 0 to 2."""
+    """The names of the force columns along the axis: that of the curve, that of the other end, then the rest; and the axis,
+    0 to 2."""
     named = [name for name in (words.force, words.other) if name]
     for name in named:
         column(table, name, "--force")
@@ -73,7 +75,7 @@ def forces(table, words):
     if axis is None:
         axes = [known[name][2] for name in named if name in known] or [m[2] for m in known.values()]
         axis = "z" if "Z" in axes or not axes else axes[0].lower()
-    along = named or [name for name, m in known.items() if m[2].lower() == axis]
+    along = with_the_chosen(words, [name for name, m in known.items() if m[2].lower() == axis])
     if not along:
         fail(f"the history has no force along {axis}: add e.g. Reaction_{axis.upper()}(top) or "
              f"Contact_Force_{axis.upper()}(foam:plate) to History > Variables, or name a column by --force")
@@ -83,6 +85,21 @@ def forces(table, words):
         if not np.isfinite(table[name]).all():
             fail(f"the column '{name}' of the history is no number at t = {table['Time'][~np.isfinite(table[name])][0]:g} s")
     return along, "xyz".index(axis)
+
+
+def with_the_chosen(words, along):
+    """The forces along the axis, with --force as the first and --other as the second. A force that is given twice, at its
+    instant and as a mean, is one end."""
+    rest = [name for name in along if name not in (words.force, words.other)]
+    first = words.force or next(iter(rest), words.other)
+    ends = [words.other] if words.other and words.other != first else []
+    ends += [name for name in rest if end_of(name) != end_of(first)]
+    ends.sort(key=lambda name: name != words.other and name.startswith(INSTANT) != first.startswith(INSTANT))
+    return [first, *ends] if first else []
+
+
+def end_of(name):
+    return name.removeprefix(INSTANT)
 
 
 def is_equilibrium(deck):
@@ -97,7 +114,7 @@ def rows_of_means(path, name, deck, times):
         units, names = (re.split(r"units: *", file.readline().strip())[-1].split(","), file.readline().strip().split(","))
     if len(units) == len(names) and units[names.index(name)].strip() == "N (mean)":
         return np.full(len(times), True)
-    steps_follow = is_equilibrium(deck) and deck.section("Solver 2") is not None and not name.startswith("Instant_")
+    steps_follow = is_equilibrium(deck) and deck.section("Solver 2") is not None and not name.startswith(INSTANT)
     end = value_at(deck.get("Solver", "Final Time", default=""), 0) if steps_follow else None
     return times > (np.inf if end is None else end)
 

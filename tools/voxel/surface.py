@@ -1,4 +1,7 @@
 """A closed surface (STL, by VTK) as an image: the signed distance of each voxel's middle, positive inside, in m."""
+import itertools
+from dataclasses import dataclass
+
 import numpy as np
 from scipy import ndimage
 
@@ -6,6 +9,9 @@ from images import Image
 from strut_tools import captured, check_input, fail
 
 BAND = 3  # voxels from the surface within which the distance is that of the triangles
+TIE = 1e-6  # voxels from a triangle within which a middle is on it
+ASIDE = 1e-3  # voxels from a middle to the places that tell whether there is solid on all sides
+MOSTLY_OUT = 0.1  # share of a piece in bodies up to which it is outside them
 
 
 def read(path, edge, factor=1.0, in_part=False):
@@ -27,14 +33,23 @@ def read(path, edge, factor=1.0, in_part=False):
     if np.prod(shape.astype(float)) > 4e9:
         fail(f"{path}: {' x '.join(map(str, shape))} voxels of {edge:g} m; expected a larger --voxel-size")
     low = 0.5 * (low + high - edge * shape)  # the box holds whole voxels, as much more at either side
-    bodies = bodies_in(surface, low, edge, shape)
+    pieces = list(pieces_of(surface))
+    signs, turned = signs_of(path, pieces, low, edge, shape)
+    bodies = bodies_in(pieces, signs, low, edge, shape)
     twice = np.count_nonzero(bodies > 1)
     if twice and in_part:
         fail(f"{path}: bodies overlap in {twice:,} voxels, so that not all triangles are surface, and --grey and --density have no meaning; "
              "expected the union of the bodies")
-    overlap = f"; bodies overlap in {twice:,} voxels, which are solid" if twice else ""
-    return Image(distances(surface, bodies > 0, low, edge), (edge,) * 3,
-                 f"closed surface of {surface.GetNumberOfPolys():,} triangles in STL, volume {volume_of(surface):.6g} m3{overlap}")
+    values, ties = distances(surface, bodies > 0, low, edge)
+    if ties.any() and len(pieces) > 1:
+        values[ties & all_around(pieces, signs, low, edge, shape)] = np.float32(TIE * edge)
+    volume = sum(sign * piece.volume for piece, sign in zip(pieces, signs))
+    told = f"closed surface of {surface.GetNumberOfPolys():,} triangles in STL, volume {volume:.6g} m3"
+    if twice:
+        told += f", overlaps twice; bodies overlap in {twice:,} voxels, which are solid"
+    if turned:
+        told += f"; {turned} wound the other way and outside the rest, taken as {'a body' if turned == 1 else 'bodies'}"
+    return Image(values, (edge,) * 3, told)
 
 
 def scaled(surface, factor):
@@ -61,16 +76,15 @@ def check_closed(path, surface):
         fail(f"{path}: the surface is not closed: {count} edges do not have two triangles; expected what bounds a body")
 
 
-def volume_of(surface):
-    from vtkmodules.vtkFiltersCore import vtkMassProperties
-
-    mass = vtkMassProperties()
-    mass.SetInputData(surface)
-    return mass.GetVolume()
+@dataclass
+class Piece:
+    surface: object  # vtkPolyData
+    volume: float    # m³
+    sign: int        # +1, or -1 if it is wound the other way than the largest piece
 
 
 def pieces_of(surface):
-    """The connected pieces of a closed surface, and +1, or -1 for those that are turned round against the largest one: cavities."""
+    """The connected pieces of a closed surface, the largest first."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -89,26 +103,61 @@ def pieces_of(surface):
     a, b, c = np.moveaxis((places - places.mean(axis=0))[triangles], 1, 0)
     volumes = np.bincount(region, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6)
     signs = np.sign(volumes * volumes[np.argmax(np.abs(volumes))])
-    order = np.argsort(region, kind="stable")
-    for own, sign in zip(np.split(triangles[order], np.cumsum(np.bincount(region))[:-1]), signs):
+    by_region = np.split(triangles[np.argsort(region, kind="stable")], np.cumsum(np.bincount(region))[:-1])
+    for number in np.argsort(-np.abs(volumes), kind="stable"):
+        own = by_region[number]
         used, numbers = np.unique(own, return_inverse=True)
         piece, points, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
         points.SetData(numpy_to_vtk(places[used], deep=True))
         cells.SetData(3, numpy_to_vtk(numbers.reshape(-1).astype(np.int64), deep=True, array_type=16))
         piece.SetPoints(points), piece.SetPolys(cells)
-        yield piece, int(sign)
+        yield Piece(piece, abs(float(volumes[number])), int(signs[number]))
 
 
-def bodies_in(surface, low, edge, shape):
+def signs_of(path, pieces, low, edge, shape):
+    """+1 for each piece that bounds a body, -1 for a cavity; and how many were turned. A piece that is wound the other way is a
+    cavity in a body, but outside all of them a body, together with what is within it."""
+    count, turn, signs, turned = np.zeros(shape[::-1], np.int32), np.ones(shape[::-1], np.int8), [], 0
+    for piece in pieces:
+        part, inside = part_inside(piece, low, edge, shape)
+        sign = piece.sign * (-1 if np.any(inside) and turn[part][inside].mean() < 0 else 1)
+        within = (count[part][inside] > 0).mean() if sign < 0 and np.any(inside) else 1.0
+        if MOSTLY_OUT < within < 1 - MOSTLY_OUT:
+            fail(f"{path}: a piece of {piece.volume:.4g} m3 is wound the other way, as a cavity, but only {100 * within:.0f} % of it is "
+                 "in a body; expected a cavity inside, or a body wound as the others")
+        if sign < 0 and within <= MOSTLY_OUT:
+            sign, turned = 1, turned + 1
+            turn[part][inside] *= -1
+        count[part] += sign * inside
+        signs.append(sign)
+    return signs, turned
+
+
+def bodies_in(pieces, signs, low, edge, shape):
     """In how many bodies the middle of each voxel (z, y, x) is; the surface of a cavity takes one away."""
     count = np.zeros(shape[::-1], np.int32)
-    for piece, sign in pieces_of(surface):
-        least, most = np.reshape(piece.GetBounds(), (3, 2)).T
-        first = np.clip(np.floor((least - low) / edge).astype(int) - 1, 0, shape - 1)
-        last = np.clip(np.ceil((most - low) / edge).astype(int) + 1, 0, shape - 1)
-        part = tuple(slice(a, b + 1) for a, b in zip(first[::-1], last[::-1]))
-        count[part] += sign * inside_of(piece, low + first * edge, edge, last - first + 1)
+    for piece, sign in zip(pieces, signs):
+        part, inside = part_inside(piece, low, edge, shape)
+        count[part] += sign * inside
     return count
+
+
+def all_around(pieces, signs, low, edge, shape):
+    """True for each voxel whose middle has solid on all sides, though it may be on a triangle: inside a second body, or where
+    two bodies touch."""
+    found = np.ones(shape[::-1], bool)
+    for corner in itertools.product((-ASIDE, ASIDE), repeat=3):
+        found &= bodies_in(pieces, signs, low + edge * np.array(corner), edge, shape) > 0
+    return found
+
+
+def part_inside(piece, low, edge, shape):
+    """The part of the box around a piece, as slices (z, y, x), and which middles in it are inside."""
+    least, most = np.reshape(piece.surface.GetBounds(), (3, 2)).T
+    first = np.clip(np.floor((least - low) / edge).astype(int) - 1, 0, shape - 1)
+    last = np.clip(np.ceil((most - low) / edge).astype(int) + 1, 0, shape - 1)
+    part = tuple(slice(a, b + 1) for a, b in zip(first[::-1], last[::-1]))
+    return part, inside_of(piece.surface, low + first * edge, edge, last - first + 1)
 
 
 def inside_of(surface, low, edge, shape):
@@ -129,6 +178,7 @@ def inside_of(surface, low, edge, shape):
 
 
 def distances(surface, inside, low, edge):
+    """The signed distances, and True for each voxel whose middle is on a triangle."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkDoubleArray
     from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance
@@ -144,7 +194,9 @@ def distances(surface, inside, low, edge):
     exact = np.abs(vtk_to_numpy(found))
     there = tuple(near.T)
     values[there] = np.where(inside[there], exact, -exact)
-    return values
+    ties = np.zeros(inside.shape, bool)
+    ties[there] = exact <= TIE * edge
+    return values, ties
 
 
 def moved_to(values, edge, share, in_part):

@@ -339,6 +339,21 @@ class Runs(InFolder):
         self.assertIn("both ends          not known: the history has the force at one end only", done.stdout)
         self.assertAlmostEqual(self.made("block.xml")["plateau_stress"] / YIELD, 1, 8)
 
+    def test_the_other_end_counts_whichever_force_is_named(self):
+        force = 4e-5 * stress_at(STRAIN)
+        columns = {"Time": STRAIN * 20e-3 / 1e-2, "Reaction_Z(top)": -force, "Reaction_X(side)": 9 * force}
+        self.history({**columns, "Instant_Reaction_Z(top)": -force, "Reaction_Z(bottom)": 2 / 3 * force})
+        top, bottom = ("--force", "Reaction_Z(top)"), ("--other", "Reaction_Z(bottom)")
+        for words in ((), top, bottom, (*top, *bottom)):
+            done = self.curve("block.xml", *words)
+            self.assertRegex(done.stdout, r"(?m)^force +Reaction_Z\(top\)\nother end +Reaction_Z\(bottom\)\n")
+            self.assertRegex(done.stdout, r"plateau_stress +- Pa .* both ends differ by 40 %")
+        done = self.curve("block.xml", "--force", "Reaction_Z(bottom)")
+        self.assertRegex(done.stdout, r"(?m)^force +Reaction_Z\(bottom\)\nother end +Reaction_Z\(top\)\n")
+        self.history({**columns, "Instant_Reaction_Z(top)": -force})
+        for words in ((), top):
+            self.assertIn("the history has the force at one end only", self.curve("block.xml", *words).stdout)
+
     def test_an_impact_by_its_layers(self):
         places, velocities = shocked(TIMES)
         columns = {"Time": TIMES}

@@ -123,6 +123,43 @@ TEST_F(PointToolTest, UniaxialStressOfLinearHardeningIsTheClosedForm) {
   EXPECT_NEAR(last.at("Equivalent_Plastic_Strain"), 0.1 - stress / youngs, 1e-10);
 }
 
+// With Johnson-Cook softening of exponent 1, the flow stress falls in a straight line to 0 at the melting temperature.
+TEST_F(PointToolTest, StartsAtTheTemperatureOfItsBlocks) {
+  const std::string modulus = R"("100.0e6"/>)";
+  std::string hot = deck;
+  const auto copper_ends = hot.find("</ParameterList>", hot.find(modulus)) + 16;
+  hot.insert(copper_ends, R"(
+      <ParameterList name="Heating"><Parameter name="Specific Heat" type="double" value="1e12"/></ParameterList>
+      <ParameterList name="Softening">
+        <Parameter name="Type" type="string" value="Johnson-Cook"/>
+        <Parameter name="Reference Temperature" type="double" value="300"/>
+        <Parameter name="Melting Temperature" type="double" value="1300"/>
+        <Parameter name="Exponent" type="double" value="1"/>
+      </ParameterList>)");
+  const std::string horizon = R"(<Parameter name="Horizon" type="double" value="0.0015"/>)";
+  hot.insert(hot.find(horizon), R"(<Parameter name="Initial Temperature" type="double" value="900"/>
+      )");
+  write("deck.xml", hot);
+  const std::string words = "--material copper --uniaxial-stress 1e3 0.01 --steps 100";
+  const Row last = follow(words).back();
+  EXPECT_NEAR(last.at("Temperature"), 900, 1e-3);
+  const double flow = yield_stress + hardening * last.at("Equivalent_Plastic_Strain");
+  EXPECT_NEAR(last.at("Stress_xx"), (1300.0 - 900) / (1300 - 300) * flow, 1e-6 * flow);
+
+  const std::string section = R"(<ParameterList name="bar">)", all = R"(value="all")";
+  std::string two = hot;
+  two.replace(two.find(all), all.size(), R"(value="rod")");
+  two.insert(two.find(section), R"(<ParameterList name="cold">
+      <Parameter name="Block Names" type="string" value="anvil"/>
+      <Parameter name="Material" type="string" value="copper"/>
+      <Parameter name="Horizon" type="double" value="0.0015"/>
+    </ParameterList>
+    )");
+  write("deck.xml", two);
+  expect_refused(path("deck.xml") + " " + words, "(cold at 293 K, bar at 900 K); expected one");
+  EXPECT_EQ(follow("--material steel --uniaxial-strain 1 0.01 --steps 1").size(), 2u);
+}
+
 TEST_F(PointToolTest, CompressionMirrorsTension) {
   const double pull = follow("--material copper --uniaxial-strain 1e3 0.1 --steps 20").back().at("Stress_xx");
   const double push = follow("--material copper --uniaxial-strain 1e3 -0.1 --steps 20").back().at("Stress_xx");

@@ -84,9 +84,44 @@ class Surfaces(InFolder):
         printed = self.works("core.stl", "out.g", "--voxel-size", 1e-3, "--pieces", 0)
         self.assertIn(f"{8**3 - 6**3 + 2**3}, each", printed)
 
+    def test_middles_on_a_triangle_inside_are_solid(self):
+        """Voxels of 1 m, whose middles lie on faces of the second body: a float has such numbers exactly."""
+        whole, inner = (0, 8) * 3, (2, 6, 2.5, 5.5, 2.5, 5.5)
+        bricks(self.folder / "inner.stl", whole, inner)
+        self.assertIn(f"{8**3}, each", self.works("inner.stl", "out.g", "--voxel-size", 1))
+        # Two that touch at the middles of a layer: its voxels are no gap between them.
+        bricks(self.folder / "touch.stl", (0, 4.5, 0, 8, 0, 8), (4.5, 8, 1, 7, 1, 7))
+        self.assertIn(f"{4 * 8 * 8 + 4 * 6 * 6}, each", self.works("touch.stl", "out.g", "--voxel-size", 1))
+
+    def test_a_separate_body_may_be_wound_the_other_way(self):
+        whole, apart, hole = (0, 8e-3) * 3, (10e-3, 14e-3) * 3, (11e-3, 13e-3) * 3
+        bricks(self.folder / "apart.stl", whole, apart, cavities=[1])
+        words = ("out.g", "--voxel-size", 1e-3, "--pieces", 0)
+        printed = self.works("apart.stl", *words)
+        self.assertIn(f"{8**3 + 4**3}, each", printed)
+        self.assertIn("volume 5.76e-07 m3; 1 wound the other way and outside the rest, taken as a body", printed)
+        bricks(self.folder / "hollow.stl", whole, apart, hole, cavities=[1])  # its cavity is wound the other way, too
+        self.assertIn(f"{8**3 + 4**3 - 2**3}, each", self.works("hollow.stl", *words))
+        bricks(self.folder / "out.stl", whole, (6e-3, 10e-3, 2e-3, 6e-3, 2e-3, 6e-3), cavities=[1])
+        self.assertIn("only 50 % of it is in a body; expected a cavity inside", self.run_tool("voxels", "out.stl", *words).stderr)
+
+    def test_the_volume_does_not_depend_on_how_triangles_are_wound(self):
+        corners = np.array([(x, y, z) for z in (0, 2e-3) for y in (0, 3e-3) for x in (0, 4e-3)])
+        faces = ((0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5))
+        text = "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex {:g} {:g} {:g}\n".format(*corners[c]) for c in
+                       (face if number < 6 else face[::-1])) + "endloop\nendfacet\n" for number, face in enumerate(faces))
+        (self.folder / "mixed.stl").write_text(f"solid x\n{text}endsolid x\n")
+        self.assertIn("volume 2.4e-08 m3", self.works("mixed.stl", "out.g", "--voxel-size", 1e-3))
+
     def test_a_block_may_fill_its_box(self):
         bricks(self.folder / "block.stl", (0, 4e-3, 0, 3e-3, 0, 2e-3))
         self.assertIn(f"{8 * 6 * 4}, each", self.works("block.stl", "out.g", "--voxel-size", 5e-4))
+
+    def test_a_block_that_fills_its_box_is_whole_in_grey(self):
+        bricks(self.folder / "block.stl", (0, 4e-3, 0, 3e-3, 0, 2e-3))
+        done = self.run_tool("voxels", "block.stl", "out.g", "--voxel-size", 5e-4, "--cells", 2, "--grey")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertAlmostEqual(self.volume_of(done.stdout) / 24e-9, 1, 5)
 
     def test_lengths_of_the_file_have_a_unit(self):
         sphere(self.folder / "sphere.stl", 1.0)
@@ -117,6 +152,17 @@ class Arrays(InFolder):
         np.save(self.folder / "bool.npy", values.transpose() > 50)
         done = self.run_tool("voxels", "bool.npy", "c.g", "--voxel-size", 1e-3)
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_grey_needs_void_or_its_level(self):
+        values = np.random.default_rng(1).integers(100, 255, (6, 5, 4)).astype(np.uint8)
+        values[:3] = 0
+        np.save(self.folder / "a.npy", values)
+        words = ("a.npy", "a.g", "--voxel-size", 1e-3, "--threshold", 50, "--crop", 0.5, 1, 0, 1, 0, 1, "--cells", 2, "--grey")
+        done = self.run_tool("voxels", *words)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertIn("nothing tells the level of void; expected --grey VOID SOLID, or a larger --crop", done.stderr)
+        done = self.run_tool("voxels", *words, 0, 100)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_other_arrays_are_refused(self):
         np.save(self.folder / "flat.npy", np.ones((3, 4)))
