@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <iostream>
@@ -213,8 +214,11 @@ py::object whole(PythonRun& run, const std::string& name) {
   const std::vector<std::int64_t> ids = gather<std::int64_t>(run.ranks(), cloud.ids);
   if (run.ranks().rank() != 0) return py::none();
   const auto width = static_cast<std::size_t>(one.components);
-  std::vector<double> all(static_cast<std::size_t>(*std::max_element(ids.begin(), ids.end()) + 1) * width,
-                          std::numeric_limits<double>::quiet_NaN());
+  const Scene& scene = run.run().scene();
+  // Points at nodes have the numbers of the nodes, with gaps where a node has no element.
+  const std::int64_t points =
+      std::max(scene.points + scene.dropped.points, *std::max_element(ids.begin(), ids.end()) + 1);
+  std::vector<double> all(static_cast<std::size_t>(points) * width, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * width), width,
                 all.begin() + static_cast<std::ptrdiff_t>(ids[i]) * one.components);

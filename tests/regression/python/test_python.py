@@ -145,6 +145,21 @@ class Runs(InFolder):
             run = strut.run(deck, strut.voxels(solid, SPACING, name="block"))
         self.assertAlmostEqual(run.history["Displacement_Z(lost)"][-1], -20 * run.time, delta=1e-9)
 
+    def test_whole_fields_are_as_long_as_the_mesh_whichever_point_was_dropped(self):
+        for alone in ((0, 0, 10), (3, 4, 10)):
+            solid = np.ones((4, 5, 11), bool)
+            solid[:, :, 8:] = False
+            solid[alone] = True
+            deck = block.deck(Discretization={"Degenerate Points": "Drop"}, History={"Frequency": 1, "Variables": {"Max_Displacement": True}})
+            deck["Boundary Conditions"]["top"]["Node Set"] = "block_zmin"
+            del deck["Boundary Conditions"]["foot"]
+            run = strut.Run(deck, strut.voxels(solid, SPACING, name="block"))
+            for name in ("Displacement", "Equivalent_Plastic_Strain"):
+                field = run.whole(name)
+                self.assertEqual(len(field), solid.sum())
+                self.assertEqual(np.isnan(field.reshape(len(field), -1)).all(axis=1).sum(), 1)
+            self.assertTrue(np.isfinite(run.whole("Displacement")[run.ids]).all())
+
     def test_equilibria_pause_at_their_load_steps(self):
         conditions = block.deck()["Boundary Conditions"]
         top = {**conditions["top"], "Type": "Prescribed Displacement", "Value": "-1e-6*t"}
