@@ -102,9 +102,11 @@ void StepLength::count_step() {
   allowance_ = std::min(allowance_ + 1, most_allowed);
 }
 
+// A fixed step follows no bound.
 PresentStep StepLength::present(bool bonds_may_break) const {
-  return {dt_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0, longest_stay(bonds_may_break) / control_.safety_factor,
-          dt_ == 0};
+  const bool follows_bound = dt_ > 0 && control_.fixed_dt == 0;
+  return {follows_bound ? bound_of_step_ * step_of_bound_ / dt_ : 0,
+          longest_stay(bonds_may_break) / control_.safety_factor, dt_ == 0};
 }
 
 void StepLength::take_levels(const MultiTimeStepping& chosen) {
