@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "mechanics/force_sum.hpp"
@@ -18,21 +17,21 @@ void scale(QuadraticState& state, double factor) {
   for (std::size_t n = 0; n < sizeof(QuadraticState) / sizeof(double); ++n) numbers[n] *= factor;
 }
 
-// The step after a choice of levels over the one before, as the bounds foretell it: the estimate of the critical time
-// step comes later. Before the first step there is none.
-double ratio_of_steps(const PresentStep& present, double bound, bool anew) {
-  if (present.is_first) return std::numeric_limits<double>::infinity();
-  return anew && present.bound > 0 && bound > 0 ? present.bound / bound : 1;
+// The step after a choice of levels as a part of both steps around it, foretold by the frequency bounds: the critical
+// time step is estimated later. No step comes before the first.
+double part_after(const PresentStep& present, double bound, bool anew) {
+  if (present.is_first) return 1;
+  const double ratio = anew && present.bound > 0 && bound > 0 ? present.bound / bound : 1;
+  return ratio / (1 + ratio);
 }
 
 // Half of the interval before a change of levels and half of the one after give the impulse at it: that of a point
-// lasts for its share of each. `ratio`: the whole step after over the one before.
-void spread_impulses(Body& body, const std::vector<std::uint8_t>& before, double ratio) {
-  const double part_after = std::isfinite(ratio) ? ratio / (1 + ratio) : 1;
+// lasts for its share of each. `after`: the interval after as a part of both.
+void spread_impulses(Body& body, const std::vector<std::uint8_t>& before, double after) {
   for_each_point(0, body.owned(), [&](int i) {
     const double old_share = before.empty() ? 1 : power_of_two(-before[i]), share = body.share(i);
     if (share == old_share) return;
-    const double mean = (1 - part_after) * old_share + part_after * share;
+    const double mean = (1 - after) * old_share + after * share;
     if (!body.force_states.tensors.empty()) {
       for (Eigen::Array4d& column : body.force_states.tensors[i].column) column *= mean / old_share;
     }
@@ -72,7 +71,7 @@ double MultiTimeStepping::choose(Body& body, double safety_factor, const Present
   bound_ = chosen.bound;
   body.time_levels = std::move(chosen.levels);
   make_levels(body);
-  spread_impulses(body, before, ratio_of_steps(present, bound_, anew_));
+  spread_impulses(body, before, part_after(present, bound_, anew_));
   return fastest_of(body);
 }
 
@@ -82,7 +81,7 @@ double MultiTimeStepping::drop(Body& body, const PresentStep& present) {
   make_levels(body);
   const double fastest = fastest_of(body);
   anew_ = true, bound_ = body.domain.communicator.max(fastest);
-  spread_impulses(body, before, ratio_of_steps(present, bound_, anew_));
+  spread_impulses(body, before, part_after(present, bound_, anew_));
   return fastest;
 }
 

@@ -97,7 +97,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Of all numbers of the file, also those that nobody asks for.
+// The check sum of the deck and of all numbers of the file, whether or not the snapshot asks for them.
 double sum_of_head(const NetcdfLists& file) {
   CheckSum sum;
   sum.add(file.text("deck"));

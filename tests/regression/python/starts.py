@@ -242,7 +242,7 @@ class Starts(InFolder):
         self.assertGreater(first.fields["Time_Step_Level"].max(), 0)
         elastic = first.history["Elastic_Energy"][-1]
         self.assertGreater(elastic, 0)
-        # That of substeps of so coarse a bar, 0.07; by an impulse of other weights 0.58.
+        # The substeps of this coarse bar make an error of 0.07 in both runs; impulses of a step before the first made 0.58.
         worst = lambda run: np.abs(run.history["Balance_Error"]).max()
         self.assertLess(worst(run), worst(first))
         largest = np.sqrt(2 * 1e-9 * (128 * 1200 + 32 * 7800) * elastic)
