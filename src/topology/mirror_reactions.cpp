@@ -1,6 +1,6 @@
 #include "topology/mirror_reactions.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 namespace strut {
@@ -29,12 +29,26 @@ Vector across(const Domain& domain, const Mirror& mirror, const MirroredForces& 
   return mirror.normal.dot(sums.of_images(mirror.body, images_behind(domain, mirror))) * mirror.normal;
 }
 
+// The vector of least length whose product with Σ n⊗n is nearest to the force.
+Vector share(const Tensor& of_normals, const Vector& force) {
+  constexpr double dependent = 1e-12;
+  const Eigen::SelfAdjointEigenSolver<Tensor> axes(of_normals);
+  Vector result = Vector::Zero();
+  for (int c = 0; c < 3; ++c) {
+    const Vector axis = axes.eigenvectors().col(c);
+    if (axes.eigenvalues()[c] > dependent * axes.eigenvalues()[2])
+      result += axis.dot(force) / axes.eigenvalues()[c] * axis;
+  }
+  return result;
+}
+
 // Adds up the forces of the planes of a body: a plane that has a parallel one gets the force of its images; the other
-// planes share the rest of the force on the body.
+// planes share the rest of the force on the body, along their normals, with the least sum of squares.
 void add(const Domain& domain, int body, const MirroredForces& sums, std::vector<Vector>& forces) {
   const std::vector<Mirror>& mirrors = domain.mirrors;
   Vector rest = sums.on_body(body);
   std::vector<std::size_t> others;
+  Tensor of_normals = Tensor::Zero();
   for (std::size_t m = 0; m < mirrors.size(); ++m) {
     if (mirrors[m].body != body) continue;
     if (has_parallel(mirrors, mirrors[m])) {
@@ -42,17 +56,12 @@ void add(const Domain& domain, int body, const MirroredForces& sums, std::vector
       rest -= forces[m];
     } else {
       others.push_back(m);
+      of_normals += mirrors[m].normal * mirrors[m].normal.transpose();
     }
   }
   if (others.empty()) return;
-  Eigen::Matrix3Xd normals(3, others.size());
-  for (std::size_t n = 0; n < others.size(); ++n) {
-    normals.col(static_cast<Eigen::Index>(n)) = mirrors[others[n]].normal;
-  }
-  const Eigen::VectorXd along = normals.completeOrthogonalDecomposition().solve(rest);
-  for (std::size_t n = 0; n < others.size(); ++n) {
-    forces[others[n]] = along[static_cast<Eigen::Index>(n)] * mirrors[others[n]].normal;
-  }
+  const Vector shared = share(of_normals, rest);
+  for (const std::size_t m : others) forces[m] = mirrors[m].normal.dot(shared) * mirrors[m].normal;
 }
 
 }  // namespace

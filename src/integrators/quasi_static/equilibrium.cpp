@@ -164,8 +164,19 @@ void Equilibrium::begin_strained(double t) {
   mirror_forces_before_ = mirror_forces(body_);
   add_contact();
   contact_.add_mirror_reactions(body_.domain, mirror_forces_before_);
+  mirror_forces_ = mirror_forces_before_;
   for (int i = 0; i < body_.owned(); ++i) outer_before_[i] = -body_.domain.volume(i) * body_.force_density[i];
+  hold_at(t);
   committed_.restore_materials(body_);
+}
+
+// The forces on held points, for the reactions before the first step. Those of tools begin with it.
+void Equilibrium::hold_at(double t) {
+  constraints_.emplace(held_directions(conditions_, body_, t, 0), body_);
+  add_forces(conditions_, t, body_);
+  forces_.resize(body_.owned());
+  for (int i = 0; i < body_.owned(); ++i) forces_[i] = body_.domain.volume(i) * body_.force_density[i];
+  forces_before_ = forces_;
 }
 
 std::vector<Vector> Equilibrium::step_way() const {

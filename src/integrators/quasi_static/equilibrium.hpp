@@ -106,6 +106,7 @@ class Equilibrium {
   void add_contact();
   Imbalance measure(bool failed);
   void begin_flow_of_cells();
+  void hold_at(double t);
   void stretch_sides(double t);
 
   Body& body_;
