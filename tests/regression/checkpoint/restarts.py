@@ -140,7 +140,8 @@ def impact():
     ]
 
 
-def press():
+def press(end=0.6):
+    """Load steps of 0.05 s."""
     fields = COMMON + [
         section("Blocks", block("lower", 1, "copper"), block("upper", 2, "copper").replace("true", "false")),
         section(
@@ -148,7 +149,7 @@ def press():
             section("foot", keys(Type="Prescribed Displacement", Coordinate="xyz", Node_Set="foot", Value=0.0)),
             plane("plate", 13.62 * SPACING + GAP, -1, Travel_Z="-0.003*t"),
         ),
-        section("Solver", keys(Final_Time=1.0), section("QuasiStatic", keys(Number_of_Load_Steps=20, Tolerance=1e-6))),
+        section("Solver", keys(Final_Time=end), section("QuasiStatic", keys(Number_of_Load_Steps=round(20 * end), Tolerance=1e-6))),
         *sinks("press", 3, 1, "foot", "plate"),
     ]
     text = "\n".join(fields)
@@ -157,7 +158,7 @@ def press():
 
 def rubbing():
     """The upper bar is pressed on the lower one, then dragged along it: surfaces that touch, stick and slide."""
-    text = "\n".join(press()).replace("press.", "rubbing.").replace("(plate)", "(drag)")
+    text = "\n".join(press(1.0)).replace("press.", "rubbing.").replace("(plate)", "(drag)")
     held = lambda name, axis, value: section(
         name, keys(Type="Prescribed Displacement", Coordinate=axis, Node_Set="head", Value=value))
     plate = plane("plate", 13.62 * SPACING + GAP, -1, Travel_Z="-0.003*t")
@@ -257,7 +258,7 @@ def cracking():
 
 def parting():
     """A bar, elastic by correspondence below and ordinary above, is torn in equilibria from one side to the other."""
-    text = "\n".join(press()).replace("press.", "parting.").replace("(plate)", "(head)").replace("Equivalent_Plastic_Strain", "Damage")
+    text = "\n".join(press(1.0)).replace("press.", "parting.").replace("(plate)", "(head)").replace("Equivalent_Plastic_Strain", "Damage")
     plate, flows = plane("plate", 13.62 * SPACING + GAP, -1, Travel_Z="-0.003*t"), keys(Yield_Stress=5e7)
     hardens = section("Hardening", keys(Type="Power Law", Reference_Strain=0.00218, Exponent=0.1))
     for part in (plate, flows, hardens):
@@ -314,7 +315,7 @@ class Test:
             return subprocess.Popen(command, cwd=folder, stdout=log, stderr=subprocess.STDOUT)
 
     def run(self, folder, *options, ranks=1, expect=0):
-        status = self.start(folder, *options, ranks=ranks).wait(timeout=100)
+        status = self.start(folder, *options, ranks=ranks).wait(timeout=300)
         if expect is not None and status != expect:
             self.fail(f"{folder}: exit status {status}, expected {expect}", folder / "log")
         return (folder / "log").read_text()
@@ -596,7 +597,7 @@ class Test:
         self.killed(name, whole, kills)
         if name == "cells":  # where levels of time steps make the work uneven
             self.rebalanced(name)
-        if name in ("impact", "cells"):
+        if name == "impact":  # files and signals are the same for all
             self.rank_lost(name)
             self.disk_full(name, whole)
             self.two_in_a_folder(name, whole)

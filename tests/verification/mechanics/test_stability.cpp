@@ -128,7 +128,7 @@ TEST(Stability, LimitOnPerturbedLattices) {
 
 TEST(Stability, LimitByHorizon) {
   const Communicator world;
-  for (const double horizon : {1.5, 1.75, 2.515, 3.015, 4.015}) {
+  for (const double horizon : {1.5, 1.75, 3.015, 4.015}) {
     const LatticeSpec spec{{9, 9, 9}, h, horizon, 0, Influence::one, metal(coefficient)};
     expect_limit(text("horizon of %g spacings", horizon), [&] { return lattice_body(spec, world); });
   }
@@ -209,20 +209,20 @@ TEST(Stability, TwentyTurnsLeaveNoStress) {
   EXPECT_LT(stress, 2000 * 1e-15 * 10);  // round-off of each step's strain, added up
 }
 
-TEST(Stability, AMillionStepsKeepTheEnergy) {
+TEST(Stability, TwoHundredThousandStepsKeepTheEnergy) {
   const Communicator world;
   Body body = lattice_body({{4, 4, 4}, h, 1.75, 0, Influence::one, metal(coefficient)}, world);
   const double limit = CentralDifference(body, {}, {}, {0, 1}, 0).critical_time_step();
   throw_apart(body, 1e-3);
   CentralDifference solver(body, {}, {}, {0.9 * limit, 0}, 0);
   double drift = 0;
-  for (int n = 0; n < 1000000; ++n) {
+  for (int n = 0; n < 200000; ++n) {
     solver.advance_velocity(1e9);
-    if (n % 100000 == 0) drift = std::max(drift, solver.ledger().balance_error);
-    solver.advance_position((n + 1) % 100000 == 0);
+    if (n % 20000 == 0) drift = std::max(drift, solver.ledger().balance_error);
+    solver.advance_position((n + 1) % 20000 == 0);
   }
-  row("a million steps of free vibration at 0.9 of the limit", text("energy off by %.1e", drift));
-  EXPECT_LT(drift, 1e-4);
+  row("200,000 steps of free vibration at 0.9 of the limit", text("energy off by %.1e", drift));
+  EXPECT_LT(drift, 1e-5);
 }
 
 // ---- Warnings and errors -------------------------------------------------------------------------------------------
