@@ -131,6 +131,15 @@ void serialize_reaches(Archive& archive, Conditions& conditions) {
   for_each_tool(conditions, [&](RigidTool& tool, const std::string& name) { tool.serialize_reaches(archive, name); });
 }
 
+void keep_reaches(const Conditions& before, Conditions& now) {
+  const std::vector<RigidTool> held = tools_of(before);
+  for_each_tool(now, [&](RigidTool& tool, const std::string&) {
+    const auto is_same = [&](const RigidTool& one) { return one.reaction_place == tool.reaction_place; };
+    const auto found = std::ranges::find_if(held, is_same);
+    if (found != held.end()) tool.reaches = found->reaches;
+  });
+}
+
 std::vector<RigidTool> tools_of(const Conditions& conditions) {
   std::vector<RigidTool> tools;
   conditions.visit([&]<class Type>(const Type& one) {

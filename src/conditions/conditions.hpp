@@ -73,6 +73,8 @@ double kinetic_energy_of_tools(const Conditions& conditions);
 void serialize_tools(Archive& archive, Conditions& conditions, int owned);
 // The same for their reaches alone, "tool_N_reach", N the tool's index in the deck.
 void serialize_reaches(Archive& archive, Conditions& conditions);
+// Tools that held the body before, on the same points, keep the reaches that they had.
+void keep_reaches(const Conditions& before, Conditions& now);
 
 // All conditions that are unilateral contact in equilibria.
 std::vector<RigidTool> tools_of(const Conditions& conditions);

@@ -73,8 +73,14 @@ bool has_a_past(const std::string& path, const Texts& texts) {
   return std::ranges::any_of(with_past, [&](const char* one) { return column.starts_with(one); });
 }
 
+// True for keys that decide on the mass that is added for a wanted step.
+bool sets_masses(const std::string& path, const Texts& before, const Texts& now) {
+  const std::string key = "Solver > Verlet > Mass Scaling dt";
+  return path == key || (path == "Solver > Verlet > Safety Factor" && before.contains(key) && now.contains(key));
+}
+
 bool is_accepted(const std::string& path, const Texts& before, const Texts& now) {
-  if (path == "Solver > Verlet > Mass Scaling dt") return false;  // moved points had another mass
+  if (sets_masses(path, before, now)) return false;  // moved points had another mass
   if (std::any_of(free_to_change.begin(), free_to_change.end(), [&](const char* one) { return is_within(path, one); }))
     return true;
   if (path.starts_with("Solver > QuasiStatic > ")) return true;
@@ -175,7 +181,7 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     if (is_within(path, "Contact")) changes.same_contact = false;
     if (is_within(path, "Boundary Conditions") || is_within(path, "Node Sets")) changes.same_conditions = false;
     if (is_within(path, "Node Sets")) changes.same_loads = false;
-    if (path == "Solver > Verlet > Mass Scaling dt") changes.masses = path + ": " + both(was, "there", is, "here");
+    if (sets_masses(path, other, now)) changes.masses = path + ": " + both(was, "there", is, "here");
     if (is_of_the_body(path, other) && !within) changes.refused.push_back(path + ": " + both(was, "there", is, "here"));
   }
   compare_images(other, now, changes.refused);

@@ -260,7 +260,7 @@ void Run::Parts::close() {
 void Run::Parts::hand_over() {
   report();
   const Ledger before = equilibria->ledger();
-  deck = set_up_next(deck, equilibria->take_contact(), equilibria->take_fracture(), *scene);
+  deck = set_up_next(deck, equilibria->conditions(), equilibria->take_contact(), equilibria->take_fracture(), *scene);
   std::ostringstream from;
   from << "\nSolver 2: explicit steps from t = " << deck.solver.initial_time << " s\n" << scene->warnings;
   say(communicator, from.str());

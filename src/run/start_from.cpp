@@ -46,19 +46,6 @@ void check_missing(const std::filesystem::path& file, const std::vector<std::str
                                                     "need: " + joined(needed));
 }
 
-// Collective. True if the checkpoint has a thermal strain: its points stay as they are if nothing heats them here.
-bool has_expanded(const std::filesystem::path& file, Body& body) {
-  Snapshot asked;
-  Archive archive = Archive::saving_to(asked);
-  serialize_for_start(archive, body);
-  std::erase_if(asked.groups, [](const Snapshot::Group& group) { return group.name != "all points"; });
-  for (Snapshot::Group& group : asked.groups)
-    group.columns = {{"thermal_strain", 1, std::vector<double>(group.ids.size())}};
-  asked.numbers.clear(), asked.shares.clear();
-  const auto all = [](const std::string&) { return true; };
-  return io::read_checkpoint_parts(file, body.domain.communicator, all, asked).missing.empty();
-}
-
 // The stretch of periodic sides is that of the checkpoint, or all images would jump.
 std::string other_stretch(const deck::Deck& deck, const std::vector<Period>& periods, const Snapshot& found) {
   const double t = deck.solver.initial_time;
@@ -101,6 +88,13 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
     problems.add(key, why);
     return;
   }
+  for (const deck::Condition& one : deck.conditions) {
+    if (std::holds_alternative<InitialDisplacement>(one.kind))
+      problems.add(
+          "Boundary Conditions > " + one.name + " > Type",
+          "'Initial Displacement' has no meaning beside Start From, whose points begin where the other run left "
+          "them; expected another condition");
+  }
   time_ = facts.time;
   changes_ = deck::start_changes(facts.deck, deck.text);
   for (const std::string& one : changes_.refused)
@@ -135,9 +129,6 @@ void StartState::spare_files(const deck::Deck& deck, deck::Problems& problems) c
 
 std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   Body& body = scene.body;
-  const bool may_expand =
-      std::ranges::any_of(deck.materials, [](const auto& one) { return one.thermal_expansion != 0; });
-  if (may_expand && body.expansion.empty() && has_expanded(file_, body)) body.expansion.use(body.owned());
   const contact::Kinematics kinematics{body.domain, body.velocity, body.density};
   const auto pass = [&](Archive archive, double& last_step) {
     archive.number("dt", last_step);
@@ -154,6 +145,7 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   check_missing(file_, parts.missing, communicator_);
   raise_together(communicator_, other_stretch(deck, body.domain.periods, snapshot));
   pass(Archive::loading_from(snapshot), last_step);
+  for (PointExpansion& point : *body.expansion) point.work = 0;
   if (!keeps_velocities_) {
     std::ranges::fill(body.velocity, Vector::Zero());
   } else if (!goes_on_ && !changes_.after_equilibria) {

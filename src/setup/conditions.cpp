@@ -99,12 +99,28 @@ bool needs_inertia(const deck::Condition& condition) {
   return (tool && tool->free) || std::visit(impossible, condition.kind);
 }
 
-// Held points start at the initial displacement that their condition prescribes.
-void put_back_held(const deck::Deck& deck, const PointsOfConditions& points, Body& body) {
+// Takes the initial displacement out of a plane, along its normal or in the directions that other conditions leave
+// free.
+void put_back(const SymmetryPlane& plane, const std::vector<int>& points, int place, const SharedPoints& shared,
+              Body& body) {
+  for (const int i : points) {
+    const auto found = shared.find(i);
+    const Vector push = found == shared.end() ? plane.normal : push_of_plane(found->second, place);
+    const Vector back = plane.normal.dot(body.displacement(i)) * push;
+    body.domain.sites[i].current.head<3>() -= back.array();
+  }
+}
+
+// Held points start at the initial displacement that their condition prescribes, those of planes on their plane.
+void put_back_held(const deck::Deck& deck, const PointsOfConditions& points, const SharedPoints& shared, Body& body) {
   for (std::size_t c = 0; c < points.size(); ++c) {
     const auto* motion = std::get_if<PrescribedMotion>(&deck.conditions[c].kind);
     if (!motion || motion->is_velocity) continue;
     InitialDisplacement{motion->components, motion->value}.set_initial_state(points[c], deck.solver.initial_time, body);
+  }
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const auto* plane = std::get_if<SymmetryPlane>(&deck.conditions[c].kind);
+    if (plane) put_back(*plane, points[c], static_cast<int>(c), shared, body);
   }
 }
 
@@ -193,7 +209,8 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
   for (const deck::Condition& one : deck.conditions) points.push_back(points_of(scene.body.domain.cloud, one.node_set));
   scene.warnings += let_the_last_count(deck, scene.body, points);
   check_contradictions(deck, points, scene.body, problems);
-  if (!deck.start_from) scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
+  const bool displaces = std::ranges::any_of(deck.conditions, is_initial_displacement);
+  if (!deck.start_from && !displaces) scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   if (mesh_time == deck.solver.initial_time) {  // else they have been told before the equilibria
     scene.warnings += sudden_motions(deck, points, scene.body) + sampled_pulses(deck, points, scene.body) +
                       values_between_load_steps(deck, points, scene.body);
@@ -213,8 +230,10 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
     }
   }
   set_reference_temperatures(scene.body, times.mesh);  // points have not expanded in the mesh
-  if (std::ranges::any_of(deck.conditions, is_initial_displacement)) {
-    put_back_held(deck, points, scene.body);
+  if (displaces) {
+    if (!deck.start_from)
+      scene.warnings += check_initial_displacements(deck, points, scene.body, problems, MayRest::yes);
+    put_back_held(deck, points, shared, scene.body);
     scene.body.domain.halo.exchange_places(scene.body.domain.sites);
   }
   raise_together(communicator, problems.text(deck.file.string()));

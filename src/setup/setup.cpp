@@ -35,6 +35,13 @@ StepControl control_of(const deck::Deck& deck) {
   return {solver.fixed_dt.value_or(0), solver.safety_factor, solver.subcycling, !deck.watch.stops_inverted};
 }
 
+// Points that were heated in the run that this one starts from stay as they are, whether anything heats them here or
+// not.
+bool may_have_expanded(const deck::Deck& deck) {
+  const auto expands = [](const deck::Material& one) { return one.thermal_expansion != 0; };
+  return deck.start_from && std::ranges::any_of(deck.materials, expands);
+}
+
 // Builds the scene from the partitioned cloud.
 Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weights, const Communicator& communicator) {
   Dropped dropped;
@@ -57,6 +64,7 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weigh
               dropped,
               {},
               found.warnings};
+  if (may_have_expanded(deck)) scene.body.expansion.use(scene.body.owned());
   scene.warnings += open_sides(deck, scene.body.domain);
   scene.fracture = fracture_of(scene.body);
   add_conditions(deck, deck.solver.initial_time, scene, communicator);
@@ -107,10 +115,11 @@ deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, std::option
   return next;
 }
 
-deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, std::optional<Fracture> fracture,
-                       Scene& scene) {
+deck::Deck set_up_next(const deck::Deck& deck, const Conditions& held, contact::Contact contact,
+                       std::optional<Fracture> fracture, Scene& scene) {
   const deck::Deck next = next_of(deck, std::move(contact), std::move(fracture), scene);
   add_conditions(next, deck.solver.initial_time, scene, scene.body.domain.communicator);
+  keep_reaches(held, scene.conditions);
   return next;
 }
 

@@ -38,11 +38,11 @@ MigrationState migration_state_of(const Scene& scene, PointCloud cloud);
 Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicator& communicator);
 
 // Collective. Makes a scene whose equilibria are over ready for the explicit steps of the deck's second solver: the
-// body, as it is, with conditions and bonds to break from now on. `contact`: of the equilibria, whose touching
-// distances stay; `fracture`: what they know of broken bonds. Returns the deck of these steps; scene.warnings are
-// theirs.
-deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, std::optional<Fracture> fracture,
-                       Scene& scene);
+// body, as it is, with conditions and bonds to break from now on. `held`: the conditions of the equilibria, whose tools
+// keep their reaches; `contact`: theirs, whose touching distances stay; `fracture`: what they know of broken bonds.
+// Returns the deck of these steps; scene.warnings are theirs.
+deck::Deck set_up_next(const deck::Deck& deck, const Conditions& held, contact::Contact contact,
+                       std::optional<Fracture> fracture, Scene& scene);
 // The same without conditions, which the place of the body, as it is, may not suit.
 deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, std::optional<Fracture> fracture, Scene& scene);
 

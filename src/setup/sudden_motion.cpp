@@ -153,7 +153,7 @@ double longest_step(const Body& body) {
 }  // namespace
 
 std::string check_initial_displacements(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
-                                        deck::Problems& problems) {
+                                        deck::Problems& problems, MayRest may_rest) {
   const double t = deck.solver.initial_time;
   PointsOfConditions moved(points.size());
   for (std::size_t c = 0; c < points.size(); ++c) {
@@ -162,6 +162,7 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
     for (const int i : points[c]) {
       const Vector X = body.domain.reference(i);
       const double u = motion->value.evaluate(X[0], X[1], X[2], t);
+      if (may_rest == MayRest::yes && std::abs(u) <= no_jump * body.domain.cloud.spacings[i]) continue;
       const auto is_far = [&](int c) {  // from where it is: after equilibria, no more where it was
         return std::abs(u - (body.domain.current(i) - X)[c]) > no_jump * body.domain.cloud.spacings[i];
       };

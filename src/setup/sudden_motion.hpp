@@ -9,10 +9,13 @@
 
 namespace strut {
 
+// Beside an initial displacement of a body, the points that are held may stay where the mesh has them.
+enum class MayRest { no, yes };
+
 // Collective. Displacements at the initial time that points do not have then (0 of an undeformed body): with explicit
 // steps an error, the same on all ranks; else a warning.
 std::string check_initial_displacements(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
-                                        deck::Problems& problems);
+                                        deck::Problems& problems, MayRest may_rest = MayRest::no);
 
 // Collective. For explicit steps: warns of jumps in displacements and in the travel of tools, a line each.
 std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);
