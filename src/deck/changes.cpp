@@ -169,7 +169,8 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
                        .same_solver = true,
                        .same_contact = true,
                        .same_conditions = true,
-                       .same_loads = true};
+                       .same_loads = true,
+                       .same_breaks = true};
   std::string whole;  // a section that only one of both has: its keys are not named
   for (const std::string& path : paths_of(other, now)) {
     const std::string was = text_at(other, path), is = text_at(now, path);
@@ -178,6 +179,7 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     if (!within) whole = was == section_text || is == section_text ? path : "";
     if (path == "Solver > QuasiStatic" || (is_within(path, "Solver > Verlet") && path != "Solver > Verlet > Rebalance"))
       changes.same_solver = false;
+    if (path.ends_with(" > Damage Model") && was == "nothing") changes.same_breaks = false;
     if (is_within(path, "Contact")) changes.same_contact = false;
     if (is_within(path, "Boundary Conditions") || is_within(path, "Node Sets")) changes.same_conditions = false;
     if (is_within(path, "Node Sets")) changes.same_loads = false;

@@ -24,6 +24,7 @@ struct StartChanges {
   std::string masses;                   // another mass scaling, as above; "" if it is the same
   bool after_equilibria = false;        // the other run's solver
   bool same_solver = false, same_contact = false, same_conditions = false, same_loads = false;
+  bool same_breaks = false;  // bodies may break here where they might there
 };
 StartChanges start_changes(const std::string& other, const std::string& now);
 

@@ -105,7 +105,7 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
   const bool same_time = std::abs(now - time_) <= round_off * std::abs(time_);
   const bool with_velocities =
       changes_.after_equilibria || (keeps_velocities_ && (changes_.same_conditions || !has_initial_velocity(deck)));
-  goes_on_ = same_time && changes_.same_solver && changes_.same_contact && with_velocities &&
+  goes_on_ = same_time && changes_.same_solver && changes_.same_contact && changes_.same_breaks && with_velocities &&
              changes_.after_equilibria == deck.solver.quasi_static.has_value();
 }
 
@@ -232,7 +232,7 @@ void StartState::go_on(CentralDifference& solver) { take_steps(solver, &CentralD
 
 void StartState::begin(QuasiStatic& solver) {
   if (goes_on_) take_steps(solver, &QuasiStatic::serialize_search);
-  solver.begin_strained(goes_on_);
+  solver.begin_strained(goes_on_ && changes_.same_conditions);  // loads and tools of the other run are unknown
 }
 
 }  // namespace strut

@@ -150,6 +150,18 @@ std::string look_at_next_steps(const deck::Deck& deck, const PointsOfConditions&
   return sudden_motions(next, points, body) + sampled_pulses(next, points, body);
 }
 
+// A body that rests or flies, and is heated from now on, expands. On all ranks alike, whoever has its heated points.
+void end_rigid_motion_of_heated(Body& body) {
+  if (body.heated.empty()) return;
+  const std::vector<BlockHorizons>& blocks = body.domain.blocks;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (body.blocks[b].material.thermal_expansion == 0) continue;
+    for (std::size_t other = 0; other < blocks.size(); ++other) {
+      if (blocks[other].body == blocks[b].body) body.blocks[other].in_rigid_motion = false;
+    }
+  }
+}
+
 // Warns if explicit steps continue another run at other temperatures: the change of thermal strain acts at once.
 std::string sudden_expansion(const deck::Deck& deck, Body& body) {
   constexpr double round_off = 1e-9;
@@ -254,6 +266,7 @@ void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::functi
     if (initial && !kept.steps && !deck.next_solver) initial->set_initial_state(points.back(), t, scene.body);
   }
   set_reference_temperatures(scene.body, t);  // of those that were not heated before
+  if (!kept.steps || !kept.conditions) end_rigid_motion_of_heated(scene.body);
   scene.warnings += sudden_expansion(deck, scene.body);
   // Where all goes on, a point that is not where its condition has it was pushed aside: a later condition wins.
   if (!kept.steps || !kept.conditions)

@@ -36,6 +36,8 @@ class EnergyAccount {
   // Counts the energy of the body at the first ledger as put in before. `half_step`: J, counted as put in from the
   // second ledger on, because a body that is strained at the start begins with half a step.
   bool has_begun() const { return has_begun_; }
+  // Work counts from here, without the part of this impulse that belongs to the step before.
+  void begin_at_this_impulse() { done_ = done_ + impulse_.before * -1; }
   void begin_with(const Ledger& ledger, double half_step) {
     initial_ += ledger.gained, half_step_ = half_step, has_begun_ = true;
   }

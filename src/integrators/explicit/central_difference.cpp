@@ -92,7 +92,9 @@ void CentralDifference::advance_velocity(double final_time) {
   constrain(impulse_time);
   count_work(impulse_time);
   if (mid_steps_.before != 0.5) even_out();
-  if (!energies_.has_begun()) energies_.begin_with(ledger(), is_first ? energy_of_half_step(inner) : 0);
+  if (energies_.has_begun()) return;
+  energies_.begin_at_this_impulse();
+  energies_.begin_with(ledger(), is_first ? energy_of_half_step(inner) : 0);
 }
 
 // The scheme conserves the strain energy plus ½ m v⁻·v⁺, at the start ½ m (v² − (½ Δt a)²). Returns the part of the

@@ -77,7 +77,9 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
   inner_ = outer_ = outer_before_ = forces_before_ = residual_;
   directions_ = body.domain.sites;
   const double of_places = round_off_of_places(body);
+  const Field of_body = body.force_density;  // of a run that goes on
   round_off_ = few * std::clamp(forces_at_rest(body), of_places, most_cancelled * of_places);
+  body.force_density = of_body;
   committed_.restore(body);
   looked_at_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) looked_at_[i] = body.current(i);
@@ -160,14 +162,19 @@ void Equilibrium::add_contact() {
 }
 
 void Equilibrium::begin_strained(double t) {
+  for (MaterialBlock& block : body_.blocks) block.in_rigid_motion = false;  // equilibria look at every body
   advance(0, t, true);
   mirror_forces_before_ = mirror_forces(body_);
   add_contact();
+  contact_.commit();  // the friction that is there does work from now on
   contact_.add_mirror_reactions(body_.domain, mirror_forces_before_);
   mirror_forces_ = mirror_forces_before_;
   for (int i = 0; i < body_.owned(); ++i) outer_before_[i] = -body_.domain.volume(i) * body_.force_density[i];
   hold_at(t);
+  const std::vector<PointExpansion> pulled = *body_.expansion;  // by the stress that is there
   committed_.restore_materials(body_);
+  body_.expansion = pulled;
+  committed_.take(body_);
 }
 
 // The forces on held points, for the reactions before the first step. Those of tools begin with it.
@@ -275,11 +282,12 @@ std::int64_t Equilibrium::break_bonds() {
   if (!breaks_) return 0;
   const std::int64_t before = broken_bonds(body_);
   fracture_->start_rest(body_);
-  const Field inner = inner_;
+  const Field inner = inner_, with_loads = body_.force_density;
   advance(dt_, t_ + dt_, true);
   const std::int64_t broken = body_.domain.communicator.sum(broken_bonds(body_) - before) / 2;
   if (broken == 0) {
     committed_.restore_materials(body_);  // to the last bit, whether a checkpoint is written here or not
+    body_.force_density = with_loads;
     return 0;
   }
   left_.resize(body_.owned());
@@ -306,6 +314,7 @@ void Equilibrium::go_back() {
   committed_.restore(body_);
   stretch_sides(t_);
   advance(0, t_, true);
+  add_forces(conditions_, t_, body_);
   add_contact();  // for its energy
   forces_ = forces_before_;
   outer_ = outer_before_;
