@@ -9,6 +9,7 @@ namespace strut::materials {
 
 struct StateVariable {
   std::string_view name, unit, meaning;
+  bool never_zero = false;  // a point whose law lacks it does not count in extremes and means; others have 0 there
 };
 
 inline constexpr std::array<StateVariable, 23> state_variables{{
@@ -32,9 +33,9 @@ inline constexpr std::array<StateVariable, 23> state_variables{{
     {"Plastic_Strain_YZ", "1", "component of ½ (I − C_p⁻¹) in the reference frame"},
     {"Plastic_Strain_ZX", "1", "component of ½ (I − C_p⁻¹) in the reference frame"},
     {"Plastic_Work_Density", "J/m³", "plastic work per reference volume; at failed points with their elastic energy"},
-    {"Relative_Density", "1", "ρ* of polymeric foam: density over that of the solid"},
-    {"Relative_Volume", "1", "v = V/V₀ of the equation of state"},
-    {"Temperature", "K", "temperature of the metal"},
+    {"Relative_Density", "1", "ρ* of polymeric foam: density over that of the solid", true},
+    {"Relative_Volume", "1", "v = V/V₀ of the equation of state", true},
+    {"Temperature", "K", "temperature of the metal", true},
     {"Volumetric_Plastic_Strain", "1", "∫ tr ε̇_p dt of metal foam, negative where compacted"},
 }};
 

@@ -51,7 +51,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   add_numbered_sets(values, file, deck.node_sets, problems);
   deck.start_from = read_start_from(values);
   deck.solver = read_solver(values, problems);
-  check_temperatures(deck.materials, deck.conditions, problems);
+  check_temperatures(deck.materials, deck.conditions, deck.start_from.has_value(), problems);
   deck.next_solver = read_next_solver(values, deck.solver, problems);
   const bool steps_follow = deck.next_solver.has_value();
   check_quasi_static(deck.solver, deck.conditions, deck.contact_models, deck.materials, deck.blocks, deck.damage_models,

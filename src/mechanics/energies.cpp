@@ -41,6 +41,13 @@ double ordinary_energy(const MaterialBlock& block, const OrdinaryPoint& point, d
   return 0.5 * moduli.bulk * theta2 + 7.5 * moduli.shear * (square / point.weighted_volume - theta2 / 9);
 }
 
+double work_of_expansion(const Body& body) {
+  double sum = 0;
+  for (std::size_t i = 0; i < body.expansion.size(); ++i)
+    sum += body.expansion[i].work * body.domain.volume(static_cast<int>(i));
+  return sum;
+}
+
 Energies stored_energies(const Body& body) {
   Energies sum;
   for (const MaterialBlock& block : body.blocks) {
@@ -56,9 +63,7 @@ Energies stored_energies(const Body& body) {
   }
   sum.stabilization = total(0, body.owned(), [&](int i) { return body.stabilization_work(i) * body.domain.volume(i); });
   sum.fracture = std::accumulate(body.fracture_energy.begin(), body.fracture_energy.end(), sum.fracture);
-  for (std::size_t i = 0; i < body.expansion.size(); ++i) {
-    sum.expansion += body.expansion[i].work * body.domain.volume(static_cast<int>(i));
-  }
+  sum.expansion = work_of_expansion(body);
   double values[] = {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.expansion, sum.heat};
   body.domain.communicator.sum(values);
   return {values[0], values[1], values[2], values[3], values[4], values[5]};

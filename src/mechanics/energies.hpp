@@ -8,7 +8,7 @@ namespace strut {
 // The energy that one point stores and has dissipated.
 struct PointEnergy {
   double elastic = 0, dissipated = 0, heat = 0;  // J/m³ of reference volume; heat: ρ c_p (T − T₀)
-  double cracks = 0;                            // the part of the dissipation that counts as energy of fracture
+  double cracks = 0;                             // the part of the dissipation that counts as energy of fracture
 };
 
 // Energy that the law of block.points[k] has stored and dissipated; not for ordinary points.
@@ -22,6 +22,9 @@ struct Energies {
   double expansion = 0;  // J, done on the body by thermal expansion (expansion.hpp)
   double heat = 0;       // J, ρ c_p (T − T₀); for information, not a term of the energy balance
 };
+
+// Work of thermal expansion on this rank's points so far, also in a run that this one starts from, J.
+double work_of_expansion(const Body& body);
 
 // Collective: sums over all ranks. Call it after a stress update with diagnostics.
 Energies stored_energies(const Body& body);

@@ -52,17 +52,31 @@ std::vector<std::string> Mean::columns() const {
   return names;
 }
 
-std::vector<double> Mean::values(const Body& body) const {
-  const std::vector<double> numbers = number_.of(body);
+template <class Value>
+std::vector<double> Mean::sums(const Body& body, const Value& value) const {
+  const std::vector<bool> has = number_.observable.blocks_that_have_it(body);
   const int count = layers_.count();
-  std::vector<double> sums(2 * static_cast<std::size_t>(count));  // values (times volumes), then volumes
+  std::vector<double> sums(2 * static_cast<std::size_t>(count));
   for (int i = 0; i < body.owned(); ++i) {
-    const int layer = layers_.of(body, i);
+    const int layer = has[body.domain.cloud.blocks[i]] ? layers_.of(body, i) : -1;
     if (layer < 0) continue;
-    sums[layer] += (is_sum(name_) ? 1 : body.domain.volume(i)) * numbers[i];
+    sums[layer] += value(i);
     sums[count + layer] += body.domain.volume(i);
   }
   body.domain.communicator.sum(sums);
+  return sums;
+}
+
+bool Mean::exists(const Body& body) const {
+  const std::vector<double> sums = this->sums(body, [](int) { return 0.0; });
+  return is_sum(name_) || std::all_of(sums.begin() + layers_.count(), sums.end(), [](double v) { return v > 0; });
+}
+
+std::vector<double> Mean::values(const Body& body) const {
+  const std::vector<double> numbers = number_.of(body);
+  const int count = layers_.count();
+  const std::vector<double> sums =
+      this->sums(body, [&](int i) { return (is_sum(name_) ? 1 : body.domain.volume(i)) * numbers[i]; });
   std::vector<double> means(count);
   for (int layer = 0; layer < count; ++layer) means[layer] = sums[layer] / (is_sum(name_) ? 1 : sums[count + layer]);
   return means;

@@ -49,8 +49,13 @@ class Mean {
   std::vector<std::string> columns() const;
   std::string unit() const { return number_.observable.unit; }
   std::vector<double> values(const Body& body) const;  // collective
+  // Collective. False if a layer has no point with the variable.
+  bool exists(const Body& body) const;
 
  private:
+  // Collective. For each layer the sum over its points that have the variable of value(i), then their volume.
+  template <class Value>
+  std::vector<double> sums(const Body& body, const Value& value) const;
   static bool is_sum(const std::string& name) { return name.starts_with("Sum_"); }
 
   std::string name_;

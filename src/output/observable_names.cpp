@@ -68,6 +68,12 @@ std::vector<double> PointNumber::of(const Body& body) const {
   return numbers;
 }
 
+std::vector<bool> Observable::blocks_that_have_it(const Body& body) const {
+  std::vector<bool> all;
+  for (const MaterialBlock& block : body.blocks) all.push_back(!exists || exists(block));
+  return all;
+}
+
 std::vector<std::string> names_of(const std::vector<Observable>& all) {
   std::vector<std::string> names;
   for (const Observable& o : all) names.push_back(o.name);
@@ -107,11 +113,21 @@ Extreme::Extreme(const std::vector<Observable>& all, const PointCloud& cloud, co
   number_ = *found;
 }
 
+std::int64_t Extreme::points(const Body& body) const {
+  const std::vector<bool> has = number_.observable.blocks_that_have_it(body);
+  const PointCloud& cloud = body.domain.cloud;
+  std::int64_t count = 0;
+  for (int i = 0; i < body.owned(); ++i) count += has[cloud.blocks[i]] && group_.counts(cloud, i) ? 1 : 0;
+  return count;
+}
+
 double Extreme::local(const Body& body) const {
   const std::vector<double> values = number_.of(body);
+  const std::vector<bool> has = number_.observable.blocks_that_have_it(body);
   double best = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < body.owned(); ++i) {
-    if (group_.counts(body.domain.cloud, i)) best = std::max(best, sign_ * values[i]);
+    if (has[body.domain.cloud.blocks[i]] && group_.counts(body.domain.cloud, i))
+      best = std::max(best, sign_ * values[i]);
   }
   return best;
 }

@@ -213,8 +213,16 @@ std::vector<Observable> declared_fields() {
 
 Observable of_state(const std::string& name) {
   const materials::StateVariable known = materials::state_variable(name);
-  return declared(
-      {.unit = std::string(known.unit), .meaning = std::string(known.meaning), .variable = name, .width = 1});
+  Observable one =
+      declared({.unit = std::string(known.unit), .meaning = std::string(known.meaning), .variable = name, .width = 1});
+  if (known.never_zero) {
+    one.exists = [name](const MaterialBlock& block) {
+      const auto is_it = [&name](const FieldPart& part) { return part.variable == name; };
+      return std::ranges::any_of(block.fields.all(),
+                                 [&](const auto& field) { return std::ranges::any_of(field->parts, is_it); });
+    };
+  }
+  return one;
 }
 
 template <class L>

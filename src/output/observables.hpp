@@ -20,6 +20,10 @@ struct Observable {
   // Writes the components of every owned point, point by point.
   std::function<void(const Body&, std::vector<double>&)> fill;
   std::string unit = {};
+  std::function<bool(const MaterialBlock&)> exists = {};  // in a block; empty: in all
+
+  // For each block, whether its points count in extremes and means.
+  std::vector<bool> blocks_that_have_it(const Body& body) const;
 };
 
 // All observables of a body: the fixed ones and the state variables of its laws (zero in blocks whose law has none).
@@ -64,6 +68,8 @@ class Extreme {
   std::string unit() const { return number_.observable.unit; }
   // Number of points of this rank in its group.
   std::int64_t points(const PointCloud& cloud) const { return group_.points(cloud); }
+  // Those of them that have the variable.
+  std::int64_t points(const Body& body) const;
   double local(const Body& body) const;  // of this rank, negated for a minimum, so that ranks always take the maximum
   double value(double largest) const { return sign_ * largest; }
 

@@ -20,7 +20,7 @@ The section `Output` of a deck writes these fields of the points. The section `H
 
 Forces are means since the previous row: times the interval they are impulses; the first row has 0. `Instant_Reaction_Z(wall)` is the force of the single step at the row's time. In equilibria all forces are those of the row's time.
 
-X and y are the reference and the current position of a point, F is its deformation gradient; other symbols: [glossary](../docs/glossary.md). In brackets: unit, number of components (one unless stated; 3 are x, y, z; 6 are xx, yy, zz, xy, yz, zx; 9 are a tensor row by row), and `nodal` for a nodal variable of the Exodus file; all others are element variables. A variable of a law exists where a material of the deck has this law; by quadratic correspondence it is the mean over the cell.
+X and y are reference and current position; other symbols: [glossary](../docs/glossary.md). In brackets: unit, number of components (one unless stated; 3 are x, y, z; 6 are xx, yy, zz, xy, yz, zx; 9 are a tensor row by row), and `nodal` (in the Exodus file; others are element variables). A variable of a law exists where a material has this law, else it is 0; extremes and means of `Temperature`, `Relative_Volume` and `Relative_Density` leave out points without it. By quadratic correspondence it is the mean over the cell.
 
 )";
 

@@ -137,6 +137,13 @@ std::string mean_of_probe(const std::vector<deck::NodeSet>& sets, const std::str
   return "Mean_" + name;
 }
 
+// Collective. For variables whose zeros in blocks of other laws would be taken for values.
+void check_exists(bool exists, const std::string& name) {
+  if (exists) return;
+  throw Error(where + " > " + name +
+              ": there are points only whose material has no such variable; expected a block or set where one has it");
+}
+
 // Collective: an unknown name throws on all ranks before points are counted.
 Extreme extreme(const std::vector<Observable>& all, const PointCloud& cloud, const Communicator& communicator,
                 const std::string& name) {
@@ -235,10 +242,13 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
         variables.contacts.push_back(contact_force(contact, body.domain.cloud.block_names, name));
       } else if (const std::string mean = mean_of_probe(deck.node_sets, name); !mean.empty()) {
         variables.means.push_back(mean_of(all, deck.history.profiles, body, mean, where).named(name));
+        check_exists(variables.means.back().exists(body), name);
       } else if (Mean::is_name(name)) {
         variables.means.push_back(mean_of(all, deck.history.profiles, body, name, where));
+        check_exists(variables.means.back().exists(body), name);
       } else {
         variables.extremes.push_back(extreme(all, body.domain.cloud, body.domain.communicator, name));
+        check_exists(body.domain.communicator.sum(variables.extremes.back().points(body)) > 0, name);
       }
     });
   }

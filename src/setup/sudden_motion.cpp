@@ -139,6 +139,13 @@ std::vector<Function> ways_of(const deck::Condition& condition) {
   return {};
 }
 
+// The values whose changes since the start strain a body: temperatures, and the distance of periodic sides.
+std::vector<Function> straining_values(const deck::Condition& condition) {
+  if (const auto* heats = std::get_if<PrescribedTemperature>(&condition.kind)) return {heats->value};
+  if (const auto* sides = std::get_if<PeriodicSides>(&condition.kind)) return {sides->stretch};
+  return {};
+}
+
 // The largest time that a wave takes for one spacing of a block, s: no step is longer.
 double longest_step(const Body& body) {
   double longest = 0;
@@ -234,24 +241,28 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
   if (!deck.solver.quasi_static) return "";
   constexpr int looks_between = 16;
   constexpr double told = 2;  // times the largest value at load steps: a half of a wave between two reaches far less
+  constexpr double round_off = 1e-12;
   const int load_steps = deck.solver.quasi_static->load_steps;
   const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
   std::ostringstream text;
   for (std::size_t c = 0; c < points.size(); ++c) {
-    std::vector<Function> values = ways_of(deck.conditions[c]);
+    std::vector<Function> values = straining_values(deck.conditions[c]);
+    const bool strains = !values.empty();
+    for (Function& way : ways_of(deck.conditions[c])) values.push_back(std::move(way));
     for (Function& load : sampled_values(deck.conditions[c])) values.push_back(std::move(load));
     for (const Function& value : values) {
       if (!value.depends_on_time()) continue;
-      double at_load_steps = 0, between = 0, time = 0;
+      double at_load_steps = 0, between = 0, time = 0, zero = 0;
       at_corners(value, where(points[c], body), [&](const auto& of_time) {
+        if (strains) zero = of_time(start);
         for (int k = 0; k <= looks_between * load_steps; ++k) {
-          const double t = start + duration * k / (looks_between * load_steps), size = std::abs(of_time(t));
+          const double t = start + duration * k / (looks_between * load_steps), size = std::abs(of_time(t) - zero);
           if (k % looks_between == 0) at_load_steps = std::max(at_load_steps, size);
           if (size > between) between = size, time = t;
         }
       });
-      if (!(between > told * at_load_steps)) continue;
-      text << "WARNING: " << value.path() << ": reaches " << between << " at t = " << time
+      if (!(between > told * at_load_steps + round_off * std::abs(zero))) continue;
+      text << "WARNING: " << value.path() << (strains ? ": changes by " : ": reaches ") << between << " at t = " << time
            << " s, between two load steps, and no more than " << at_load_steps
            << " at any of them: the equilibria do not see it; is it meant, with " << load_steps << " load steps?\n";
     }

@@ -21,14 +21,22 @@ void check_condition(const std::vector<Material>& materials, const std::string& 
 }  // namespace
 
 void check_temperatures(const std::vector<Material>& materials, const std::vector<Condition>& conditions,
-                        Problems& problems) {
-  bool any = false;
+                        bool has_expanded, Problems& problems) {
+  std::vector<const Condition*> heating;
+  bool changes = has_expanded;
   for (const Condition& condition : conditions) {
-    if (!std::holds_alternative<PrescribedTemperature>(condition.kind)) continue;
-    any = true;
+    const auto* one = std::get_if<PrescribedTemperature>(&condition.kind);
+    if (!one) continue;
+    heating.push_back(&condition);
+    changes = changes || one->value.depends_on_time();
     check_condition(materials, "Boundary Conditions > " + condition.name, problems);
   }
-  if (any) return;
+  for (const Condition* one : heating) {
+    if (changes) break;
+    problems.note("Boundary Conditions > " + one->name + " > Value",
+                  "has no effect: points expand by the change of T since the initial time; expected a function of t");
+  }
+  if (!heating.empty()) return;
   for (const Material& material : materials) {
     if (material.thermal_expansion == 0) continue;
     problems.note("Materials > " + material.name + " > Thermal Expansion Coefficient",

@@ -9,7 +9,8 @@
 
 namespace strut::deck {
 
+// `has_expanded`: bodies may have thermal strains at the start.
 void check_temperatures(const std::vector<Material>& materials, const std::vector<Condition>& conditions,
-                        Problems& problems);
+                        bool has_expanded, Problems& problems);
 
 }  // namespace strut::deck

@@ -10,7 +10,13 @@
 
 namespace strut {
 
+void EnergyAccount::start(const Body& body) {
+  largest_ = energy_of_round_off(body);
+  done_.external = -work_of_expansion(body);  // so far, of another run
+}
+
 void EnergyAccount::go_on_from(const Ledger& before, bool on_this_rank, double in_contact) {
+  done_.external = 0;
   if (on_this_rank)
     done_.external = before.external - before.expansion, done_.tools = before.tools, done_.contact = before.contact;
   done_.contact += in_contact;

@@ -16,8 +16,8 @@ namespace strut {
 // The work of all external forces on a body; with the stored energies it gives the ledger.
 class EnergyAccount {
  public:
-  // Collective. Sets the smallest scale of the balance error: the energy that round-off makes.
-  void start(const Body& body) { largest_ = energy_of_round_off(body); }
+  // Collective. Sets the smallest scale of the balance error: the energy that round-off makes. Work counts from here.
+  void start(const Body& body);
 
   // Goes on from the ledger of a solver before this one, at the same time; on one rank, with its contact. The others
   // take over what their contact stores.

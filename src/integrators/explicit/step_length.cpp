@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/errors.hpp"
+
 namespace strut {
 
 namespace {
@@ -72,6 +74,11 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
   } else {
     // Equal steps to the end, because a jump of dt at the last step would cost energy.
     const double longest = longest_step(contact_stiffness, body.may_break(), estimated);
+    if (std::isinf(longest)) {
+      throw Error(
+          "Solver > Verlet: no point has neighbors or touches another, so that nothing limits the time step; "
+          "expected a Fixed dt");
+    }
     dt_ = left / std::ceil(left / longest * (1 - round_off));
     if (levels_anew_) step_of_bound_ = dt_;
     levels_anew_ = false;
@@ -93,6 +100,8 @@ double StepLength::longest_step(double contact_stiffness, bool bonds_may_break, 
   const double now = critical(contact_stiffness), chosen = control_.safety_factor * now;
   const double since = std::min(chosen, least_chosen_);
   least_chosen_ = estimated ? chosen : since;
+  // Once no point has bonds or touches, nothing limits the step: it stays as it was.
+  if (dt_ > 0 && !std::isfinite(chosen)) return dt_;
   if (dt_ == 0 || levels_anew_ || dt_ > longest_stay(bonds_may_break) * now) return chosen;
   return estimated && since >= least_growth * dt_ ? since : dt_;
 }

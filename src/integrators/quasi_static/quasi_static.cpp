@@ -149,6 +149,7 @@ void QuasiStatic::serialize_steps(Archive& archive) {
 void QuasiStatic::begin_strained(bool goes_on) {
   if (!goes_on) equilibrium_.begin_strained(time_);
   dt_ = longest_;
+  external_ -= equilibrium_.body().domain.communicator.sum(work_of_expansion(equilibrium_.body()));  // of that run
   put_in_ += ledger().gained;
 }
 

@@ -207,6 +207,21 @@ TEST(Values, BetweenLoadStepsAreTold) {
     const std::string warnings = said_of(block(displacement("a", "foot", "z", value)), Loading::slow).warnings;
     EXPECT_EQ(warnings.find("between two load steps"), std::string::npos) << value;
   }
+  // Temperatures and the distance of sides count from those at the start.
+  const auto heat = [](const std::string& value) {
+    return section("a", key("Type", "Prescribed Temperature") + key("Value", value));
+  };
+  const auto sides = [](const std::string& value) {
+    return section("a", key("Type", "Periodic Sides") + key("Coordinate", "z") + key("Lower", "0") +
+                            key("Upper", "6e-3") + key("Stretch", value));
+  };
+  const std::string wave = "sin(3.14159265358979e6*2*t)", slow = "sin(1e6*t)";
+  for (const auto& condition : {heat("293 + 50*" + wave), sides("1 + 1e-3*" + wave)}) {
+    expect_said(said_of(block(condition), Loading::slow).warnings, {"changes by", "between two load steps"}, condition);
+  }
+  for (const auto& condition : {heat("293 + 50*" + slow), sides("1 + 1e-3*" + slow)}) {
+    EXPECT_EQ(said_of(block(condition), Loading::slow).warnings.find("between two load steps"), std::string::npos);
+  }
 }
 
 TEST(Displacement, ThatJumpsIsTold) {

@@ -352,6 +352,28 @@ TEST(Temperature, IsRefusedWhereItWouldMeanNothing) {
   EXPECT_NE(refusal(parts).find("by which it does not expand"), std::string::npos);
 }
 
+// Points expand by the change of T, from that of a checkpoint on, if a run starts there.
+TEST(Temperature, ThatStaysIsToldToHaveNoEffect) {
+  const auto is_told = [](const std::string& value, bool from_there = false) {
+    const RunFolder folder;
+    Parts parts;
+    parts.materials = of_copper(of_points, "2e-5");
+    parts.conditions = warmed("all", value);
+    std::string text = parts.text();
+    if (from_there)
+      text.insert(text.rfind("</ParameterList>"), section("Start From", key("Checkpoint", "other.restart")));
+    deck::Problems problems;
+    const deck::Deck deck = deck::read(folder.write("deck.xml", text), folder.world, problems);
+    return std::ranges::any_of(deck.notes, [](const std::string& note) {
+      return note.find("Boundary Conditions > warm all > Value has no effect") != note.npos;
+    });
+  };
+  EXPECT_TRUE(is_told("393"));
+  EXPECT_TRUE(is_told("293 + 1e4*x"));
+  EXPECT_FALSE(is_told("293 + t"));
+  EXPECT_FALSE(is_told("393", true));
+}
+
 // A value that is no number later on ends the run with its path.
 std::string end_of(const std::string& text) {
   const RunFolder folder;

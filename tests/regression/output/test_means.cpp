@@ -54,6 +54,37 @@ TEST(Means, AreThoseOfAMotionThatIsGiven) {
   EXPECT_NEAR(first("Mean_Coordinate_X(across 2)"), 1 * h, 1e-16);
 }
 
+// Hot metal on an elastic plate, which has no temperature: its zeros are no temperatures.
+TEST(Means, LeaveOutPointsThatHaveNoTemperature) {
+  const RunFolder folder({.plate_layers = 3});
+  Parts parts;
+  parts.materials = copper(key("Yield Stress", "50e6") +
+                           section("Softening", key("Type", "Johnson-Cook") + key("Reference Temperature", "293") +
+                                                    key("Melting Temperature", "1356") + key("Exponent", "1"))) +
+                    section("plain", key("Material Model", "Elastic") + key("Density", "8930") +
+                                         key("Young's Modulus", "117e9") + key("Poisson's Ratio", "0.35"));
+  parts.blocks = section("hot", key("Block Names", "bar") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                    key("Initial Temperature", "400")) +
+                 section("cold", key("Block Names", "plate") + key("Material", "plain") + key("Horizon", "2.01e-3"));
+  parts.times = key("Final Time", "1e-7");
+  const Table table = history_of(
+      folder, parts,
+      {"Min_Temperature", "Mean_Temperature", "Sum_Temperature(plate)", "Mean_Equivalent_Plastic_Strain(plate)"});
+  EXPECT_EQ(table.at("Min_Temperature").back(), 400);
+  EXPECT_NEAR(table.at("Mean_Temperature").back(), 400, 1e-10);  // round-off of a sum
+  EXPECT_EQ(table.at("Sum_Temperature(plate)").back(), 0);
+  EXPECT_EQ(table.at("Mean_Equivalent_Plastic_Strain(plate)").back(), 0);
+  for (const std::string name : {"Max_Temperature(plate)", "Mean_Temperature(plate)", "Mean_Temperature(slices)"}) {
+    try {
+      history_of(folder, parts, {name}, section("slices", key("Layers", "4")));
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      testing::internal::GetCapturedStdout();
+      EXPECT_NE(std::string(error.what()).find(name + ": there are points only"), std::string::npos) << error.what();
+    }
+  }
+}
+
 // Two cubes of 64 points meet, not face to face, with friction: what the one feels is what the other does not, and its
 // impulse, of means over the times between the rows, the momentum of the block, to the round-off of some hundred steps.
 TEST(ContactForce, ExplainsTheMomentumOfBothBlocks) {

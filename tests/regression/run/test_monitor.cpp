@@ -221,6 +221,39 @@ TEST(Monitor, StepThatCollapsesNamesThePointThatLimitsIt) {
   }
 }
 
+// Pieces of one point each, which no bond and no touch hold: of no stiffness, beyond the 1000 steps after which the
+// critical time step is estimated anew.
+TEST(Monitor, BodyInPiecesGoesOnWithItsStep) {
+  const RunFolder folder({.nx = 2, .ny = 2, .nz = 2});
+  Parts parts;
+  parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                      key("Damage Model", "apart"));
+  parts.damage = section("apart", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "1e-3"));
+  for (const std::string axis : {"x", "y", "z"})
+    parts.conditions += along(axis, "Initial Velocity", "all", axis, "1e5*" + axis);
+  parts.times = key("Final Time", "4e-4");
+  Simulation run(folder, parts);
+  double first = 0;
+  const Ledger end = run.go([&first](const Ledger& now) { first = first > 0 ? first : now.dt; });
+  EXPECT_GT(run.solver.steps(), 1500);
+  EXPECT_NEAR(end.dt, first, 0.01 * first);  // equal steps to the end
+  EXPECT_GT(end.kinetic, 0);
+  EXPECT_LT(end.balance_error, 1e-2);
+}
+
+TEST(Monitor, PointsThatNothingLimitsNeedAFixedStep) {
+  const RunFolder folder;
+  folder.write("points.txt", "0 0 0 1 1e-9\n0.01 0 0 1 1e-9\n");
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt", parts.degenerate = "Keep";
+  parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+  parts.conditions = along("flight", "Initial Velocity", "all", "x", "1");
+  expect_words(outcome(folder, parts).error, {"Solver > Verlet", "nothing limits the time step", "Fixed dt"});
+  parts.verlet = key("Fixed dt", "1e-7");
+  EXPECT_EQ(outcome(folder, parts).error, "");
+}
+
 // Two blocks of 3 x 3 points, the second thrown at the first. `aside`: how far, m.
 Parts thrown(const RunFolder& folder, const std::string& contact, double aside = 0, int layers = 3) {
   constexpr double h = 1e-3;
