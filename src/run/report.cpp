@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <sstream>
 
+#include "base/errors.hpp"
 #include "base/parallel/threads.hpp"
 #include "base/timing.hpp"
 #include "fracture/fracture.hpp"
@@ -153,6 +155,17 @@ std::string step_warning(const StepControl& control, double limit, double time) 
   return formatted(
       "WARNING: Fixed dt = %.4g s is above the critical time step of %.4g s at t = %.4g s: expect it to blow up\n",
       control.fixed_dt, limit, time);
+}
+
+void check_step_at(double time, const StepControl& control, double limit) {
+  constexpr double least = 100;  // numbers of the computer in a step: its length errs by 1 %
+  const double step = control.fixed_dt > 0 ? control.fixed_dt : control.safety_factor * limit;
+  const double apart = std::nextafter(std::abs(time), std::numeric_limits<double>::infinity()) - std::abs(time);
+  if (!(step < least * apart)) return;
+  throw Error(
+      formatted("Solver > Initial Time: at t = %.4g s numbers are %.2g s apart, too far for steps of %.2g s; "
+                "expected a time nearer to 0",
+                time, apart, step));
 }
 
 namespace {
