@@ -184,7 +184,8 @@ TEST_F(Mistake, PointsGivenTwice) {
     const std::string deck = changed(right_parts().text(), "bar.g", "twice.g");
     expect_error(deck,
                  {"Discretization > Input Mesh File: element 97 of block 'plate' is where element 1 of block 'bar' is",
-                  "16 points are where others are; expected each once"});
+                  shift > 0 ? "16 points are where others are; expected each once, or elements that are less flat"
+                            : "16 points are where others are; expected each once"});
     const std::string file = key("Input Mesh File", "twice.g");
     expect_error(changed(deck, file, file + key("Points", "Nodes")),
                  {"twice.g: element 97 of block 'plate' is where element 1 of block 'bar' is"});
