@@ -69,6 +69,7 @@ std::string check_steps(const deck::Deck& deck, Scene& scene) {
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time, std::move(scene.fracture));
   const double limit = solver.critical_time_step();
+  check_step_at(deck.solver.initial_time, scene.control, limit);
   const double first = measured_step(deck, solver);
   const double moving = std::max(first, measured_moving_step(deck, solver, scene.body));
   const double dt = scene.control.fixed_dt > 0 ? scene.control.fixed_dt : scene.control.safety_factor * limit;

@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <sstream>
 
+#include "base/errors.hpp"
 #include "base/parallel/threads.hpp"
 #include "base/timing.hpp"
 #include "fracture/fracture.hpp"
@@ -155,6 +157,17 @@ std::string step_warning(const StepControl& control, double limit, double time) 
       control.fixed_dt, limit, time);
 }
 
+void check_step_at(double time, const StepControl& control, double limit) {
+  constexpr double least = 100;  // numbers of the computer in a step: its length errs by 1 %
+  const double step = control.fixed_dt > 0 ? control.fixed_dt : control.safety_factor * limit;
+  const double apart = std::nextafter(std::abs(time), std::numeric_limits<double>::infinity()) - std::abs(time);
+  if (!(step < least * apart)) return;
+  throw Error(
+      formatted("Solver > Initial Time: at t = %.4g s numbers are %.2g s apart, too far for steps of %.2g s; "
+                "expected a time nearer to 0",
+                time, apart, step));
+}
+
 namespace {
 
 std::string table_of_phases(const Scene& scene, double seconds) {
@@ -218,6 +231,13 @@ std::string fragment_table(const Body& body) {
   return text;
 }
 
+// Collective. True if every point is where the mesh has it: equilibria with correspondence have energies of round-off.
+bool is_as_in_mesh(const Body& body) {
+  double moved = 0;
+  for (int i = 0; i < body.owned(); ++i) moved = std::max(moved, body.displacement(i).cwiseAbs().maxCoeff());
+  return body.domain.communicator.max(moved) == 0;
+}
+
 // Collective. Hints for a run in which nothing happened.
 std::string what_did_not_happen(const Scene& scene, const Ledger& ledger, int before) {
   const std::string since = before > 0 ? ", since it went on" : "";
@@ -226,9 +246,12 @@ std::string what_did_not_happen(const Scene& scene, const Ledger& ledger, int be
     if (scene.body.domain.communicator.max(*tool.touched ? 1.0 : 0.0) == 0)
       text += "the tool '" + tool.name + "' touched nothing" + since + "\n";
   }
-  const double all[] = {ledger.kinetic,  ledger.elastic,  ledger.dissipated, ledger.stabilization,
-                        ledger.fracture, ledger.external, ledger.tools,      ledger.contact};
-  if (std::all_of(std::begin(all), std::end(all), [](double energy) { return energy == 0; }))
+  const auto zero = [](double energy) { return energy == 0; };
+  const double done[] = {ledger.kinetic,  ledger.dissipated, ledger.fracture,
+                         ledger.external, ledger.tools,      ledger.contact};
+  const double held[] = {ledger.elastic, ledger.stabilization};
+  const bool nothing = std::ranges::all_of(done, zero);
+  if (nothing && (std::ranges::all_of(held, zero) || is_as_in_mesh(scene.body)))
     text +=
         "WARNING: nothing moved: no velocity, force or tool of Boundary Conditions has reached a point" + since + "\n";
   return text;

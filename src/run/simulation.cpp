@@ -177,6 +177,7 @@ void Run::Parts::begin() {
   if (equilibria) return;
   if (const auto ranks = balance.take_restored_ranks()) repartition({deck, scene, steps, writers}, *ranks);
   say(communicator, critical_time_step_line(steps->critical_time_step()));
+  check_step_at(steps->time(), scene->control, steps->critical_time_step());
   control.emplace(*services, *steps);
 }
 

@@ -165,12 +165,12 @@ std::string told(const PointCloud& cloud, const Pair& pair, std::int64_t count) 
     return text.str();
   };
   const auto& [a, b] = pair;
+  const double apart = Vector(a.x[0] - b.x[0], a.x[1] - b.x[1], a.x[2] - b.x[2]).norm();
   std::ostringstream text;
   text << name(b) << " is where " << name(a) << " is, at (" << a.x[0] << ", " << a.x[1] << ", " << a.x[2] << ") m ("
-       << Vector(a.x[0] - b.x[0], a.x[1] - b.x[1], a.x[2] - b.x[2]).norm()
-       << " m apart; the edge of a cube of its volume is " << b.edge << " m)";
+       << apart << " m apart; the edge of a cube of its volume is " << b.edge << " m)";
   if (count > 1) text << ", and so on: " << count << " points are where others are";
-  text << "; expected each once";
+  text << "; expected each once" << (apart > 0 ? ", or elements that are less flat" : "");
   return text.str();
 }
 

@@ -159,7 +159,6 @@ Solver read_one(const Values& values, Problems& problems) {
   }
   check_one_of(steps, fixed_dt, safety_factor, problems);
   check_one_of(steps, fixed_dt, scaled_dt, problems);
-  check_times(values, problems);
   return solver;
 }
 
@@ -177,14 +176,21 @@ Section next_solver_section() {
   return section;
 }
 
-Solver read_solver(const Values& deck, Problems& problems) { return read_one(deck.section(name), problems); }
+Solver read_solver(const Values& deck, Problems& problems) {
+  check_times(deck.section(name), problems);
+  return read_one(deck.section(name), problems);
+}
 
 std::optional<Solver> read_next_solver(const Values& deck, const Solver& first, Problems& problems) {
   if (!deck.has_section(next_name)) return std::nullopt;
   const Values& values = deck.section(next_name);
   Solver next = read_one(values, problems);
   next.keeps_velocities = values[keeps_velocities];
-  if (!values.given(initial_time)) next.initial_time = first.final_time;
+  if (values.given(initial_time)) {
+    check_times(values, problems);
+  } else {
+    next.initial_time = first.final_time;
+  }
   if (!first.quasi_static || next.quasi_static) {
     problems.add(next_name,
                  "expected explicit steps (Verlet) after equilibria (Solver > QuasiStatic): no other solvers "

@@ -20,12 +20,14 @@ bool contains(const DiskCrack& crack, const Vector& x) {
   return (x - crack.center).norm() < crack.radius * (1 - 1e-12);
 }
 
-// Intersection of the segment from a to b, ends included, with the plane through `on`, if there is one.
+// Intersection of the segment from a to b, ends included, with the plane through `on`, if there is one. Ends that are
+// on the plane to the round-off of meshes are on it: else bonds of a layer of points there would be cut at random.
 std::optional<Vector> crossing(const Vector& a, const Vector& b, const Vector& on, const Vector& normal) {
-  const double way = (b - a).dot(normal);
-  if (std::abs(way) < 1e-14 * (b - a).norm()) return std::nullopt;  // along the plane
-  const double part = (on - a).dot(normal) / way;
-  return part >= 0 && part <= 1 ? std::optional<Vector>(a + part * (b - a)) : std::nullopt;
+  const double from = (a - on).dot(normal), to = (b - on).dot(normal), least = 1e-9 * (b - a).norm();
+  const bool starts_on = std::abs(from) <= least, ends_on = std::abs(to) <= least;
+  if (starts_on) return ends_on ? std::nullopt : std::optional<Vector>(a);  // both: along the plane
+  if (ends_on) return b;
+  return (from > 0) != (to > 0) ? std::optional<Vector>(a + from / (from - to) * (b - a)) : std::nullopt;
 }
 
 // A bond through the edge counts as crossing, to round-off: no bond slips through between two triangles.

@@ -433,14 +433,15 @@ TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
                        " % too stiff in tension by the material model 'Elastic'"});
 }
 
-// The output of rank 0.
-std::string told_by_run(const std::string& conditions) {
+// The output of rank 0. `solver`: the section of the steps.
+std::string told_by_run(const std::string& conditions, const std::string& solver = "Verlet") {
   const RunFolder folder;
   Parts parts;
   parts.conditions = conditions;
   parts.times = key("Final Time", "2e-6");
+  if (solver != "Verlet") parts.verlet = "";
   testing::internal::CaptureStdout();
-  run(folder.write("deck.xml", parts.text()), folder.world);
+  run(folder.write("deck.xml", changed(parts.text(), R"(name="Verlet")", "name=\"" + solver + '"')), folder.world);
   const std::string told = testing::internal::GetCapturedStdout();
   return folder.world.rank() == 0 ? told : "";
 }
@@ -449,7 +450,8 @@ TEST(ClosingReport, TellsOfWhatDidNotHappen) {
   const std::string floor = plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1"),
                     far = plane("far", "Rigid Plane", "all", "0 0 -1", "0 0 1");
   const std::string still = told_by_run(floor),
-                    falls = told_by_run(floor + far + along("flight", "Initial Velocity", "all", "z", "-1"));
+                    falls = told_by_run(floor + far + along("flight", "Initial Velocity", "all", "z", "-1")),
+                    held = told_by_run(along("low", "Prescribed Displacement", "foot", "xyz", "0"), "QuasiStatic");
   if (still.empty()) return;
   // The run of 2 µs is divided into equal steps, at most 0.8 of it, the deck's safety factor.
   double limit = 0, dt = 0;
@@ -457,6 +459,7 @@ TEST(ClosingReport, TellsOfWhatDidNotHappen) {
   std::sscanf(falls.c_str() + falls.find("dt = "), "dt = %lf", &dt);
   EXPECT_NEAR(dt, 2e-6 / std::ceil(2e-6 / (0.8 * limit)), 1e-9) << falls;  // three digits are told of dt
   EXPECT_NE(still.find("the tool 'floor' touched nothing\nWARNING: nothing moved"), std::string::npos) << still;
+  EXPECT_NE(held.find("WARNING: nothing moved"), std::string::npos) << held;
   EXPECT_NE(falls.find("the tool 'far' touched nothing"), std::string::npos) << falls;
   EXPECT_EQ(falls.find("'floor' touched"), std::string::npos) << falls;
   EXPECT_EQ(falls.find("nothing moved"), std::string::npos) << falls;

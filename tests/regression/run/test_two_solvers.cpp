@@ -134,6 +134,19 @@ TEST(TwoSolvers, RunThatEndsInTheStepsIsNotOver) {
   EXPECT_TRUE(over != std::string::npos && over > anew) << said;
 }
 
+TEST(TwoSolvers, TimesMayBeNegative) {
+  Parts parts;
+  parts.conditions = held;
+  const RunFolder folder;
+  parts.history = key("Filename", (folder / "history.csv").string()) + section("Variables", "");
+  const std::string early =
+      changed(deck_of(parts), key("Final Time", "1"), key("Initial Time", "-2") + key("Final Time", "-1"));
+  testing::internal::CaptureStdout();
+  EXPECT_TRUE(run(folder.write("deck.xml", changed(early, "1.000005", "-0.999995")), folder.world));
+  testing::internal::GetCapturedStdout();
+  EXPECT_EQ(read_history(folder / "history.csv").at("Time").back(), -0.999995);
+}
+
 // By default each solver fills its own time, however much shorter that of the steps is.
 TEST(TwoSolvers, BothWriteByDefault) {
   Parts parts;
