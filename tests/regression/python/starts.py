@@ -91,6 +91,8 @@ class Starts(InFolder):
         first = ended(deck, steps, mesh)
         run = strut.run(start(deck, "first.restart", first.time, **sections), mesh)
         self.assertIn("goes on with its steps", run.log)
+        for column in ("External_Work", "Tool_Work"):
+            self.assertEqual(run.history[column][0], 0, column)
         self.assertGoesOn(whole, run, tolerance)
         return run
 
@@ -150,8 +152,7 @@ class Starts(InFolder):
     def test_warmed_bodies_go_on_with_the_same_bits(self):
         for name, deck in expanding("293 + 1e8*t*(1 + 100*x)").items():
             with self.subTest(name):
-                work = self.goes_on(deck, 12, block.mesh()).history["External_Work"]
-                self.assertLess(abs(work[0]), 0.5 * abs(work[1]))  # that of expansion, too, counts from here: half a step's
+                self.goes_on(deck, 12, block.mesh())
 
     def test_a_warmed_body_keeps_its_size_where_nothing_heats_it_and_cools_to_its_first(self):
         """T₀ is that of the first run. A free body has no stress."""
@@ -293,30 +294,6 @@ class Starts(InFolder):
                     if field in both.fields:
                         one, other = both.whole(field), run.whole(field)
                         self.assertLessEqual(np.abs(one - other).max(), 1e-12 * np.abs(one).max(), field)
-
-    def test_the_first_row_of_equilibria_has_the_reactions_of_the_body(self):
-        """Held points with loads on them, a symmetry plane or periodic sides: the last row of the run it starts from, at another time."""
-        metal = {**block.deck()["Materials"]["metal"], "Yield Stress": 2e9}  # cells have other forces where they begin to flow
-        conditions = {"foot": {"Type": "Prescribed Displacement", "Node Set": "block_zmin", "Coordinate": "z", "Value": "0"},
-                      "weight": {"Type": "Body Force", "Node Set": "all", "Coordinate": "z", "Value": "-1e9"}}
-        plane = {"Type": "Symmetry Plane", "Node Set": "block_xmax", "Point": [4 * SPACING, 0, 0], "Normal": [-1, 0, 0]}
-        sides = {"Type": "Periodic Sides", "Coordinate": "y", "Lower": 0.0, "Upper": 5 * SPACING}
-        columns = ("Reaction_Z(top)", "Reaction_Z(foot)", "Reaction_X(side)", "Reaction_Y(side)")
-        for what, law, side in (("plane", metal, plane), ("sides", metal, sides),
-                                ("cells", {**metal, "Formulation": "Quadratic Correspondence"}, plane)):
-            with self.subTest(what):
-                deck = but(block.deck(), Materials={"metal": law}, History={"Frequency": 1, "Variables": dict.fromkeys(columns, True)},
-                           Solver={"Final Time": 1.0, "QuasiStatic": {"Number of Load Steps": 2}})
-
-                def pressed(way):
-                    top = {"Type": "Prescribed Displacement", "Node Set": "block_zmax", "Coordinate": "z", "Value": way}
-                    return {"Boundary_Conditions": {**conditions, "side": side, "top": top}}
-
-                first = strut.run(but(deck, Restart={"Filename": "first.restart"}, **pressed("-2e-5*t")), block.mesh())
-                run = strut.run(start(deck, "first.restart", **pressed("-2e-5*(1 + t)")), block.mesh())
-                for column in columns:
-                    last = first.history[column][-1]
-                    self.assertAlmostEqual(run.history[column][0], last, delta=1e-9 * max(abs(last), 1), msg=column)
 
     def test_new_conditions_contact_and_solver_begin_with_the_energy_that_is_there(self):
         """A block is crushed fast, let go, and found at rest; it is struck; its balance counts from the start."""
