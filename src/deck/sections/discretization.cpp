@@ -133,10 +133,13 @@ Section discretization_section() {
 
 Discretization read_discretization(const Values& deck, const fs::path& deck_file, Problems& problems) {
   const Values& values = deck.section(name);
-  if (values[type] == MeshType::text && values[points] == Points::nodes) {
+  const bool is_text = values[type] == MeshType::text;
+  if ((is_text || values[type] == MeshType::grid) && values[points] == Points::nodes) {
     problems.add(values.path_to(points),
-                 "'Nodes'; a text file has points only: expected 'Elements' (nodes have Exodus meshes of hexahedra or "
-                 "tetrahedra)");
+                 std::string("'Nodes'; a ") +
+                     (is_text ? "text file has points" : "PdQuickGrid has the centers of cells") +
+                     " only: expected 'Elements' (nodes have Exodus meshes of hexahedra or "
+                     "tetrahedra)");
   }
   check_source(values, problems);
   const auto mesh = values[mesh_file];
