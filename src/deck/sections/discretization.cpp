@@ -111,6 +111,8 @@ void check_source(const Values& values, Problems& problems) {
   if (memory && values.given(mesh_file)) report(mesh_file.name, "unknown key for Type 'Memory', which reads no file");
   if (grid && !values.has_section(generator)) report(generator, "missing section (the only grid that is known here)");
   if (!grid && values.has_section(generator)) report(generator, "unknown section; it belongs to Type 'PdQuickGrid'");
+  if (!grid && are_boxes(values))
+    report(neighborhood.name, "'Box'; expected 'Spherical': only Type 'PdQuickGrid' has boxes of cells");
   if (grid && !values.given(neighborhood)) {
     report(neighborhood.name, "missing; expected 'Spherical', or 'Box' for what Peridigm takes without this key");
   }

@@ -282,6 +282,10 @@ const char* const of_text = R"(<Parameter name="Type" type="string" value="Text 
 TEST(DeckErrors, KeysOfOtherMeshesAreRefused) {
   const DeckFolder folder;
   const std::string box = R"(<Parameter name="NeighborhoodType" type="string" value="Box"/>)";
+  EXPECT_EQ(
+      folder.error(changed(full_deck, of_text, of_text + box)),
+      "deck.xml: 1 problem\n  Discretization > NeighborhoodType: 'Box'; expected 'Spherical': only Type 'PdQuickGrid' "
+      "has boxes of cells");
   const auto integer = [](const std::string& name) {
     return R"(<Parameter name=")" + name + R"(" type="int" value="3"/>)";
   };
