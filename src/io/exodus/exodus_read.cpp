@@ -73,10 +73,13 @@ void check_given_once(const MeshSlice& slice, const NodeRange& own, const std::s
   if (!twins.empty()) throw Error(file + ": " + twins);
 }
 
-// Collective. Reports a block all of whose nodes belong to earlier blocks: it would vanish without a message.
-void check_blocks_have_points(const PointCloud& cloud, const std::string& file, const Communicator& communicator) {
+// Collective. Reports a block all of whose nodes belong to earlier blocks: it would vanish without a message. Blocks
+// without elements have no points anyway.
+void check_blocks_have_points(const PointCloud& cloud, const MeshLayout& layout, const std::string& file,
+                              const Communicator& communicator) {
   std::vector<double> found(cloud.block_names.size(), 0);
   for (const int block : cloud.blocks) found[block] = 1;
+  for (std::size_t b = 0; b < found.size(); ++b) found[b] += layout.blocks[b].elements == 0 ? 1 : 0;
   communicator.max(found);
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (found[b] > 0) continue;
@@ -87,8 +90,8 @@ void check_blocks_have_points(const PointCloud& cloud, const std::string& file, 
   }
 }
 
-PointCloud at_nodes(const MeshSource* file, const MeshLayout& layout, const std::string& name,
-                    bool with_cells, const std::vector<Mirror>& planes, const Communicator& communicator) {
+PointCloud at_nodes(const MeshSource* file, const MeshLayout& layout, const std::string& name, bool with_cells,
+                    const std::vector<Mirror>& planes, const Communicator& communicator) {
   check_elements_have_nodes(layout, name);
   const MeshSlice slice = elements_around_slice(file, layout, communicator);
   const auto numbers = numbers_of(file, MeshSource::On::nodes, layout.nodes, communicator);
@@ -98,12 +101,12 @@ PointCloud at_nodes(const MeshSource* file, const MeshLayout& layout, const std:
       on_all_ranks(communicator, [&] { return points_at_nodes(slice, own, numbers, name, with_cells, planes); });
   check_given_once(slice, own, name, communicator);
   communicator.sum(cloud.taken_volumes);
-  check_blocks_have_points(cloud, name, communicator);
+  check_blocks_have_points(cloud, layout, name, communicator);
   return cloud;
 }
 
-PointCloud at_elements(const MeshSource* file, const MeshLayout& layout, const std::string& name,
-                       bool with_cells, const std::vector<Mirror>& planes, const Communicator& communicator) {
+PointCloud at_elements(const MeshSource* file, const MeshLayout& layout, const std::string& name, bool with_cells,
+                       const std::vector<Mirror>& planes, const Communicator& communicator) {
   const MeshSlice slice = slice_of_elements(file, layout, communicator);
   PointCloud cloud = on_all_ranks(communicator, [&] { return points_at_elements(slice, name, with_cells, planes); });
   if (with_cells) add_surfaces(slice, planes, communicator, cloud);
