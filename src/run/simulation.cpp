@@ -121,7 +121,10 @@ void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Star
   if (!continued) state = start_state_of(deck, communicator, problems);
   scene = strut::set_up(deck, checked_mesh(deck, std::move(problems), communicator, in_memory.mesh), communicator);
   const std::string started = state ? state->restore(deck, *scene) : "";
-  say(communicator, describe_scene(*scene, advice(deck, *scene)) + started);
+  // Advice is of the start, where these bodies are no longer, and were not as the mesh has them.
+  const bool is_past = continued && deck.start_from;
+  const Advice told = is_past ? Advice{"advice was given at the start\n", scene->warnings} : advice(deck, *scene);
+  say(communicator, describe_scene(*scene, told) + started);
   writers.emplace(
       deck, output_variables_of(deck, scene->body, scene->contact));  // checks all names before a file is replaced
   history = in_memory.history;

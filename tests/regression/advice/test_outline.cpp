@@ -398,8 +398,8 @@ TEST(Tools, ThatAreApartFromAllPointsAreToldOf) {
             std::string::npos);
 }
 
-// A tool presses the points that move with it, by more than half a spacing in equilibria up to 1 s, and to 1.1 s from
-// there: after an earlier run points are where it left them.
+// A tool presses the points that move with it, by more than half a spacing in equilibria up to 1 s, to 1.1 s from
+// there, and on to 1.2 s: after an earlier run points are where it left them.
 TEST(Tools, ThatGoOnPressingAreNotWarnedOf) {
   const RunFolder folder;
   const auto said = [&](const std::string& name, const std::string& from, const std::string& to, Start start) {
@@ -429,6 +429,7 @@ TEST(Tools, ThatGoOnPressingAreNotWarnedOf) {
   };
   at_rank_0("first", "0", "1", Start::anew);
   at_rank_0("second", "1", "1.1", Start::anew);
+  at_rank_0("second", "1", "1.2", Start::continued);
 }
 
 // Tools act last: what a condition holds along their normal is moved all the same, here by 0.1 mm and more in 10 µs.
