@@ -106,7 +106,8 @@ std::string overruled_motions(const Situation& situation) {
   const std::vector<Held> held = held_directions(deck, body.domain.cloud);
   if (tools.empty() || held.empty()) return "";
   Meetings met;
-  std::vector<Vector> ways(body.owned(), Vector::Zero());
+  std::vector<Vector> ways(body.owned());
+  for (int i = 0; i < body.owned(); ++i) ways[i] = body.displacement(i);  // other than 0 after Start From
   for (int k = 1; k <= looks; ++k) {
     const double time = start + duration * k / looks;
     move_on(scene.conditions, body.domain, time, duration / looks, ways);

@@ -36,6 +36,11 @@ void tell_of_long_intervals(const Deck& deck, Problems& problems) {
   tell("History > Interval", deck.history);
 }
 
+void tell_of_wall_time(const Deck& deck, Problems& problems) {
+  if (!deck.solver.wall_time) return;
+  problems.note("Solver > Wall Time", "ends a run of two solvers without a checkpoint: it can only begin anew");
+}
+
 Deck build(const Values& values, const fs::path& file, Problems& problems) {
   Deck deck;
   deck.file = file;
@@ -58,7 +63,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
                      steps_follow, problems);
   deck.output = read_output(values, deck.solver, problems);
   deck.history = read_history(values, deck.solver, problems);
-  if (steps_follow) tell_of_long_intervals(deck, problems);
+  if (steps_follow) tell_of_long_intervals(deck, problems), tell_of_wall_time(deck, problems);
   add_probes(values, deck.node_sets);
   deck.restart = read_restart(values, file, deck.output.enabled, problems);
   if (steps_follow && deck.restart.asked_for && deck.restart.enabled) {

@@ -131,7 +131,7 @@ std::string mean_of_probe(const std::vector<deck::NodeSet>& sets, const std::str
     return probe.nearest && name.ends_with("(" + probe.name + ")");
   };
   if (std::none_of(sets.begin(), sets.end(), is_meant)) return "";
-  for (const char* const prefix : {"Mean_", "Max_", "Min_"}) {
+  for (const char* const prefix : {"Mean_", "Sum_", "Max_", "Min_"}) {
     if (name.starts_with(prefix)) return "";
   }
   return "Mean_" + name;

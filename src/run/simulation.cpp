@@ -46,11 +46,29 @@ Observer observer(const deck::Deck& deck, const Communicator& communicator, cons
   return observer;
 }
 
+// A run of two solvers that its Wall Time has ended left no checkpoint: another one would come no further, and its
+// files would be lost.
+void check_wall_time(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
+  if (!deck.next_solver || !deck.solver.wall_time || is_over(deck, communicator)) return;
+  const auto is_there = [&](const std::filesystem::path& file) {
+    return communicator.max(communicator.rank() == 0 && std::filesystem::exists(file) ? 1.0 : 0.0) > 0;
+  };
+  for (const auto& file :
+       {deck.output.enabled ? deck.output.file : "", deck.history.has_file() ? deck.history.file : ""}) {
+    if (file.empty() || !is_there(file)) continue;
+    problems.add("Solver > Wall Time",
+                 "ends a run of two solvers without a checkpoint: there is none to go on from, and " + file.string() +
+                     " would be replaced; expected a longer time, or none, and 'strut " + deck.file.string() +
+                     "', which begins anew");
+  }
+}
+
 // Checks, before the mesh is read, whether the run can resume from a checkpoint or start without it.
 void look_at_checkpoint(const deck::Deck& deck, Start start, const Communicator& communicator,
                         deck::Problems& problems) {
   const bool is_there = checkpoint_exists(deck, communicator);
   check_resumption(deck, is_there, start == Start::anew, problems);
+  if (!is_there && start == Start::continued) check_wall_time(deck, communicator, problems);
   if (!problems.empty()) return;
   if (is_there && start == Start::continued) check_changes(deck, communicator);
   if (!is_there && (start == Start::continued || deck.restart.resumes))
@@ -121,7 +139,10 @@ void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Star
   if (!continued) state = start_state_of(deck, communicator, problems);
   scene = strut::set_up(deck, checked_mesh(deck, std::move(problems), communicator, in_memory.mesh), communicator);
   const std::string started = state ? state->restore(deck, *scene) : "";
-  say(communicator, describe_scene(*scene, advice(deck, *scene)) + started);
+  // Advice is of the start, where these bodies are no longer, and were not as the mesh has them.
+  const bool is_past = continued && deck.start_from;
+  const Advice told = is_past ? Advice{"advice was given at the start\n", scene->warnings} : advice(deck, *scene);
+  say(communicator, describe_scene(*scene, told) + started);
   writers.emplace(
       deck, output_variables_of(deck, scene->body, scene->contact));  // checks all names before a file is replaced
   history = in_memory.history;

@@ -144,7 +144,8 @@ std::string unresolved_place(const PointCloud& cloud, const Communicator& commun
 
 }  // namespace
 
-PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, const io::Mesh* in_memory) {
+PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, const io::Mesh* in_memory,
+                     FacesOnPlanes& apart) {
   const Timed timed(phase("Mesh in"));
   const deck::Discretization& discretization = deck.discretization;
   const deck::Grid& grid = discretization.grid;
@@ -157,13 +158,13 @@ PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, c
     std::optional<std::array<int, 3>> box;
     const deck::Block* block = section_of(deck, "block_1");
     if (grid.boxes && block) box = box_reach(grid, *block);
-    return io::make_grid(grid.origin, grid.length, grid.points, communicator, with_cells, planes, box);
+    return io::make_grid(grid.origin, grid.length, grid.points, communicator, with_cells, planes, box, &apart);
   }
   if (discretization.type == deck::MeshType::text) return io::read_text(discretization.mesh, communicator);
   const PointsAt at = discretization.points == deck::Points::nodes ? PointsAt::nodes : PointsAt::elements;
   if (discretization.type == deck::MeshType::memory)
-    return io::points_of(in_memory ? *in_memory : io::Mesh(), communicator, at, with_cells, planes);
-  return io::read_exodus(discretization.mesh, communicator, at, with_cells, planes);
+    return io::points_of(in_memory ? *in_memory : io::Mesh(), communicator, at, with_cells, planes, &apart);
+  return io::read_exodus(discretization.mesh, communicator, at, with_cells, planes, &apart);
 }
 
 void check_names(const PointCloud& cloud, const Communicator& communicator, deck::Problems& problems) {

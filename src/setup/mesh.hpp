@@ -9,8 +9,10 @@
 
 namespace strut {
 
-// Collective. The points of the mesh, in a file or in memory (on rank 0), or of the built-in grid.
-PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, const io::Mesh* in_memory = nullptr);
+// Collective. The points of the mesh, in a file or in memory (on rank 0), or of the built-in grid. Faces on planes of
+// the deck go to `apart`: they count when it is known where bodies go on (setup/mirrors.hpp).
+PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, const io::Mesh* in_memory,
+                     FacesOnPlanes& apart);
 
 // Collective. Reports names of the mesh that have another meaning in a deck.
 void check_names(const PointCloud& cloud, const Communicator& communicator, deck::Problems& problems);

@@ -211,4 +211,19 @@ Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communica
   return found;
 }
 
+void add_faces_without_images(const deck::Deck& deck, const FacesOnPlanes& faces, const Communicator& communicator,
+                              PointCloud& cloud) {
+  if (communicator.sum(std::ssize(faces)) == 0) return;
+  const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
+  const std::vector<Mirror> planes = mirrors(deck, cloud, communicator).planes;
+  for (FaceOnPlanes face : faces) {
+    const auto has_image = [&](const Mirror& plane) {
+      return plane.body == bonds[cloud.blocks[face.point]].body && (face.planes >> plane.bit & 1) != 0;
+    };
+    if (std::ranges::any_of(planes, has_image)) continue;
+    face.planes = 0;
+    add_face(face, cloud);
+  }
+}
+
 }  // namespace strut

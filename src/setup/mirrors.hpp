@@ -8,6 +8,7 @@
 #include "contact/contact.hpp"
 #include "deck/deck.hpp"
 #include "topology/domain.hpp"
+#include "topology/faces_on_planes.hpp"
 
 namespace strut {
 
@@ -22,5 +23,9 @@ struct Mirrors {
 // Collective. A body ends at a plane if its points are on one side of it and exactly those at the plane are in the set.
 // Throws Error on all ranks if planes of one body meet at an angle that is not 180°/n.
 Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator);
+
+// Collective. Adds to the surface those of the faces behind which their body does not go on.
+void add_faces_without_images(const deck::Deck& deck, const FacesOnPlanes& faces, const Communicator& communicator,
+                              PointCloud& cloud);
 
 }  // namespace strut

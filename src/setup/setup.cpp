@@ -130,8 +130,9 @@ PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, dec
   };
   if (std::any_of(problems.lines().begin(), problems.lines().end(), is_of_mesh)) return {};
   PointCloud cloud;
+  FacesOnPlanes apart;
   try {
-    cloud = read_mesh(deck, communicator, in_memory);
+    cloud = read_mesh(deck, communicator, in_memory, apart);
   } catch (const Error& error) {
     if (problems.empty()) throw;
     problems.add(error.what());
@@ -144,6 +145,7 @@ PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, dec
   add_node_sets(deck.node_sets, cloud, communicator, problems);
   check_conditions(deck, cloud, communicator, problems);
   check_interactions(deck, cloud, problems);
+  if (communicator.max(problems.empty() ? 0.0 : 1.0) == 0) add_faces_without_images(deck, apart, communicator, cloud);
   return cloud;
 }
 

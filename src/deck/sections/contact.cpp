@@ -15,9 +15,9 @@ const char* const interactions_name = "Interactions";
 
 const OptionalKey<std::string> first_block(
     {.name = "First Block",
-     .meaning =
-         "A block of the mesh. If both keys are missing: all blocks that no other interaction names, each with itself "
-         "and the others (section `General Contact`: only with the others, `Self Contact`: only with itself)."});
+     .meaning = "A block of the mesh. If both keys are missing: all pairs of blocks, and of a block and itself, that "
+                "no other interaction names "
+                "(section `General Contact`: only of two blocks, `Self Contact`: only of a block and itself)."});
 
 const OptionalKey<std::string> second_block({.name = "Second Block",
                                              .meaning = "The other block, or the same (self-contact)."});

@@ -111,6 +111,8 @@ void check_source(const Values& values, Problems& problems) {
   if (memory && values.given(mesh_file)) report(mesh_file.name, "unknown key for Type 'Memory', which reads no file");
   if (grid && !values.has_section(generator)) report(generator, "missing section (the only grid that is known here)");
   if (!grid && values.has_section(generator)) report(generator, "unknown section; it belongs to Type 'PdQuickGrid'");
+  if (!grid && are_boxes(values))
+    report(neighborhood.name, "'Box'; expected 'Spherical': only Type 'PdQuickGrid' has boxes of cells");
   if (grid && !values.given(neighborhood)) {
     report(neighborhood.name, "missing; expected 'Spherical', or 'Box' for what Peridigm takes without this key");
   }
@@ -133,10 +135,13 @@ Section discretization_section() {
 
 Discretization read_discretization(const Values& deck, const fs::path& deck_file, Problems& problems) {
   const Values& values = deck.section(name);
-  if (values[type] == MeshType::text && values[points] == Points::nodes) {
+  const bool is_text = values[type] == MeshType::text;
+  if ((is_text || values[type] == MeshType::grid) && values[points] == Points::nodes) {
     problems.add(values.path_to(points),
-                 "'Nodes'; a text file has points only: expected 'Elements' (nodes have Exodus meshes of hexahedra or "
-                 "tetrahedra)");
+                 std::string("'Nodes'; a ") +
+                     (is_text ? "text file has points" : "PdQuickGrid has the centers of cells") +
+                     " only: expected 'Elements' (nodes have Exodus meshes of hexahedra or "
+                     "tetrahedra)");
   }
   check_source(values, problems);
   const auto mesh = values[mesh_file];

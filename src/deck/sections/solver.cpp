@@ -108,8 +108,9 @@ const OptionalKey<double> wall_time(
     {.name = "Wall Time",
      .unit = "s",
      .range = positive,
-     .meaning = "After this time, set-up included, the run ends with a checkpoint, a last frame and the exit status 3. "
-                "Choose the job's limit less the time of a step, a frame and a checkpoint."});
+     .meaning = "After this time, set-up included, the run ends with a checkpoint (none with Solver 2), a last frame "
+                "and the exit "
+                "status 3. Choose the job's limit less the time of a step, a frame and a checkpoint."});
 
 const BooleanKey keeps_velocities(
     {.name = "Keep Velocities",

@@ -133,13 +133,13 @@ PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, b
 }
 
 void add_surfaces(const MeshSlice& slice, const std::vector<Mirror>& planes, const Communicator& communicator,
-                  PointCloud& cloud) {
+                  PointCloud& cloud, FacesOnPlanes* apart) {
   for (const Face& face : without_continued(surface_of(slice, communicator), slice, planes, communicator)) {
     const std::size_t point = static_cast<std::size_t>(face.element);
     if (!slice.mesh.blocks[cloud.blocks[point]].cells.empty()) continue;
-    CellShape& shape = cloud.shapes[point];
-    shape.surface += face.area;
-    shape.surface_moments += face.area * (face.middle(slice.mesh) - cloud.positions[point]).transpose();
+    add_face({point, planes_of(planes, face, slice.mesh), face.area,
+              face.area * (face.middle(slice.mesh) - cloud.positions[point]).transpose()},
+             cloud, apart);
   }
 }
 

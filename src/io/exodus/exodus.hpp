@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "topology/cloud.hpp"
+#include "topology/faces_on_planes.hpp"
 #include "topology/mirror.hpp"
 
 namespace strut {
@@ -26,12 +27,13 @@ namespace strut::io {
 // hex8 or tet4 element, in the first of its blocks in the file; ids count the file's nodes from 0.
 // Throws Error on all ranks: file missing, not Exodus, unsupported element type, no elements, volume not positive
 // (names element and block, or node), more than 64 node sets; points at the nodes of spheres.
-// `with_cells`: also shapes and shared nodes of the points (cloud.hpp); faces on symmetry `planes` are no surface.
+// `with_cells`: also shapes and shared nodes of the points (cloud.hpp); faces on symmetry `planes` are no
+// surface, and go to `apart`.
 // HEX8 blocks with the attributes of PartialCell: volume and position of a point at an element are those of the cell;
 // the spacing is the hexahedron's. Throws Error for an invalid cell (names element and block), and for points at nodes.
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator,
                        PointsAt at = PointsAt::elements, bool with_cells = false,
-                       const std::vector<Mirror>& planes = {});
+                       const std::vector<Mirror>& planes = {}, FacesOnPlanes* apart = nullptr);
 
 // Lines "x y z block volume" (m, m³; block: an integer n, named "block_n"); '#' starts a comment. Errors name the line.
 PointCloud read_text(const std::filesystem::path& file, const Communicator& communicator);
@@ -146,7 +148,7 @@ void write_mesh(const std::filesystem::path& file, const Mesh& mesh);
 
 // Collective. The points of a mesh in memory, which counts on rank 0 only, as read_exodus gives them.
 PointCloud points_of(const Mesh& mesh, const Communicator& communicator, PointsAt at = PointsAt::elements,
-                     bool with_cells = false, const std::vector<Mirror>& planes = {});
+                     bool with_cells = false, const std::vector<Mirror>& planes = {}, FacesOnPlanes* apart = nullptr);
 
 // Reads a mesh that write_mesh or another program has written: types as above whatever their spelling in the file,
 // names and volumes as for read_exodus. Serial. Throws Error like read_exodus, but does not check volumes.

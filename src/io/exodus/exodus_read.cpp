@@ -73,10 +73,13 @@ void check_given_once(const MeshSlice& slice, const NodeRange& own, const std::s
   if (!twins.empty()) throw Error(file + ": " + twins);
 }
 
-// Collective. Reports a block all of whose nodes belong to earlier blocks: it would vanish without a message.
-void check_blocks_have_points(const PointCloud& cloud, const std::string& file, const Communicator& communicator) {
+// Collective. Reports a block all of whose nodes belong to earlier blocks: it would vanish without a message. Blocks
+// without elements have no points anyway.
+void check_blocks_have_points(const PointCloud& cloud, const MeshLayout& layout, const std::string& file,
+                              const Communicator& communicator) {
   std::vector<double> found(cloud.block_names.size(), 0);
   for (const int block : cloud.blocks) found[block] = 1;
+  for (std::size_t b = 0; b < found.size(); ++b) found[b] += layout.blocks[b].elements == 0 ? 1 : 0;
   communicator.max(found);
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (found[b] > 0) continue;
@@ -87,36 +90,36 @@ void check_blocks_have_points(const PointCloud& cloud, const std::string& file, 
   }
 }
 
-PointCloud at_nodes(const MeshSource* file, const MeshLayout& layout, const std::string& name,
-                    bool with_cells, const std::vector<Mirror>& planes, const Communicator& communicator) {
+PointCloud at_nodes(const MeshSource* file, const MeshLayout& layout, const std::string& name, bool with_cells,
+                    const std::vector<Mirror>& planes, const Communicator& communicator, FacesOnPlanes* apart) {
   check_elements_have_nodes(layout, name);
   const MeshSlice slice = elements_around_slice(file, layout, communicator);
   const auto numbers = numbers_of(file, MeshSource::On::nodes, layout.nodes, communicator);
   const std::int64_t begin = slice_begin(layout.nodes, communicator.size(), communicator.rank());
   const NodeRange own{begin, begin + std::ssize(numbers)};
   PointCloud cloud =
-      on_all_ranks(communicator, [&] { return points_at_nodes(slice, own, numbers, name, with_cells, planes); });
+      on_all_ranks(communicator, [&] { return points_at_nodes(slice, own, numbers, name, with_cells, planes, apart); });
   check_given_once(slice, own, name, communicator);
   communicator.sum(cloud.taken_volumes);
-  check_blocks_have_points(cloud, name, communicator);
+  check_blocks_have_points(cloud, layout, name, communicator);
   return cloud;
 }
 
-PointCloud at_elements(const MeshSource* file, const MeshLayout& layout, const std::string& name,
-                       bool with_cells, const std::vector<Mirror>& planes, const Communicator& communicator) {
+PointCloud at_elements(const MeshSource* file, const MeshLayout& layout, const std::string& name, bool with_cells,
+                       const std::vector<Mirror>& planes, const Communicator& communicator, FacesOnPlanes* apart) {
   const MeshSlice slice = slice_of_elements(file, layout, communicator);
   PointCloud cloud = on_all_ranks(communicator, [&] { return points_at_elements(slice, name, with_cells, planes); });
-  if (with_cells) add_surfaces(slice, planes, communicator, cloud);
+  if (with_cells) add_surfaces(slice, planes, communicator, cloud, apart);
   cloud.element_ids = numbers_of(file, MeshSource::On::elements, layout.elements, communicator);
   return cloud;
 }
 
 // `mesh`: on rank 0; `name`: on all.
 PointCloud points_of(const MeshSource* mesh, const std::string& name, PointsAt at, bool with_cells,
-                     const std::vector<Mirror>& planes, const Communicator& communicator) {
+                     const std::vector<Mirror>& planes, const Communicator& communicator, FacesOnPlanes* apart) {
   const MeshLayout layout = broadcast_layout(mesh ? mesh->layout() : MeshLayout(), communicator);
   PointCloud cloud =
-      (at == PointsAt::nodes ? at_nodes : at_elements)(mesh, layout, name, with_cells, planes, communicator);
+      (at == PointsAt::nodes ? at_nodes : at_elements)(mesh, layout, name, with_cells, planes, communicator, apart);
   const auto alone = [](const std::vector<std::int64_t>& shared_nodes) { return shared_nodes.empty(); };
   const bool any_alone = std::any_of(cloud.shared_nodes.begin(), cloud.shared_nodes.end(), alone);
   cloud.has_shared_nodes = with_cells && communicator.max(any_alone ? 1.0 : 0.0) == 0;
@@ -126,21 +129,21 @@ PointCloud points_of(const MeshSource* mesh, const std::string& name, PointsAt a
 }  // namespace
 
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator, PointsAt at,
-                       bool with_cells, const std::vector<Mirror>& planes) {
+                       bool with_cells, const std::vector<Mirror>& planes, FacesOnPlanes* apart) {
   std::optional<MeshFile> mesh;
   run_on_root(communicator, [&] { mesh.emplace(opened(file)); });
-  return points_of(mesh ? &*mesh : nullptr, file.string(), at, with_cells, planes, communicator);
+  return points_of(mesh ? &*mesh : nullptr, file.string(), at, with_cells, planes, communicator, apart);
 }
 
 PointCloud points_of(const Mesh& mesh, const Communicator& communicator, PointsAt at, bool with_cells,
-                     const std::vector<Mirror>& planes) {
+                     const std::vector<Mirror>& planes, FacesOnPlanes* apart) {
   const std::string name = "the mesh in memory";
   run_on_root(communicator, [&] {
     if (mesh.blocks.empty()) throw Error(name + " has no elements");
     check_count_of_sets(mesh.node_sets.size(), name);
   });
   const MeshInMemory source(mesh);
-  return points_of(&source, name, at, with_cells, planes, communicator);
+  return points_of(&source, name, at, with_cells, planes, communicator, apart);
 }
 
 }  // namespace strut::io

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/exodus/mesh_slice.hpp"
+#include "topology/faces_on_planes.hpp"
 #include "topology/mirror.hpp"
 
 namespace strut::io {
@@ -14,9 +15,9 @@ namespace strut::io {
 // Throws Error on this rank: see read_exodus.
 PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells,
                               const std::vector<Mirror>& planes);
-// Collective. Sets the surfaces of the shapes of those points; partial cells have their own.
+// Collective. Sets the surfaces of the shapes of those points; partial cells have their own. `apart`: see add_face.
 void add_surfaces(const MeshSlice& slice, const std::vector<Mirror>& planes, const Communicator& communicator,
-                  PointCloud& cloud);
+                  PointCloud& cloud, FacesOnPlanes* apart);
 
 // A point for each node of `own` that an element uses; the slice must have all elements around these nodes. `numbers`:
 // of these nodes in the mesh. Throws Error on this rank: see read_exodus.
@@ -24,7 +25,8 @@ struct NodeRange {
   std::int64_t begin, end;  // indices in the file
 };
 PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const std::vector<std::int64_t>& numbers,
-                           const std::string& file, bool with_cells, const std::vector<Mirror>& planes);
+                           const std::string& file, bool with_cells, const std::vector<Mirror>& planes,
+                           FacesOnPlanes* apart);
 
 // The elements whose first node is in `own`, as points at their centroids: each element once over all ranks.
 PointCloud elements_of(const MeshSlice& slice, const NodeRange& own);

@@ -1,5 +1,6 @@
 // Makes material points from the nodes of a mesh, with parts of the elements around them.
 #include <cmath>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -81,12 +82,16 @@ class Cells {
       if (block.type == "TET4") add_block<4>(block, tetrahedron_pieces);
     }
     for (const Face& face : surface_of(mesh_)) {
-      if (is_on(planes, face, mesh_)) continue;
-      const double share = 1.0 / static_cast<double>(face.corners().size());
+      const std::uint32_t bits = planes_of(planes, face, mesh_);
+      const Vector part = 1.0 / static_cast<double>(face.corners().size()) * face.area;
       for (std::size_t c = 0; c < face.corners().size(); ++c) {
-        const int node = face.nodes[c];
-        surface_[node] += share * face.area;
-        surface_moments_[node] += share * face.area * (face.middle_at(mesh_, c) - mesh_.nodes[node]).transpose();
+        const auto node = static_cast<std::size_t>(face.nodes[c]);
+        const Tensor moments = part * (face.middle_at(mesh_, c) - mesh_.nodes[node]).transpose();
+        if (bits == 0) {
+          surface_[node] += part, surface_moments_[node] += moments;
+        } else {
+          on_planes_[node].push_back({0, bits, part, moments});
+        }
       }
     }
   }
@@ -94,10 +99,13 @@ class Cells {
   // The volume of the parts; for distorted elements it differs slightly from the point's volume ∫N dV.
   double volume(std::size_t node) const { return integrals_[node].volume; }
 
-  void give(std::size_t node, PointCloud& cloud) {
+  void give(std::size_t node, PointCloud& cloud, FacesOnPlanes* apart) {
     cloud.shapes.push_back(cell_shape(integrals_[node]));
     cloud.shapes.back().surface = surface_[node];
     cloud.shapes.back().surface_moments = surface_moments_[node];
+    if (const auto found = on_planes_.find(node); found != on_planes_.end()) {
+      for (FaceOnPlanes& face : found->second) face.point = cloud.shapes.size() - 1, add_face(face, cloud, apart);
+    }
     cloud.shared_nodes.push_back(std::move(shared_nodes_[node]));
   }
 
@@ -121,6 +129,7 @@ class Cells {
   std::vector<Integrals> integrals_;
   std::vector<Vector> surface_;
   std::vector<Tensor> surface_moments_;
+  std::map<std::size_t, std::vector<FaceOnPlanes>> on_planes_;  // by node: parts of faces
   std::vector<std::vector<std::int64_t>> shared_nodes_;
   std::size_t elements_ = 0;  // processed so far
 };
@@ -156,7 +165,8 @@ PointCloud elements_of(const MeshSlice& slice, const NodeRange& own) {
 }
 
 PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const std::vector<std::int64_t>& numbers,
-                           const std::string& file, bool with_cells, const std::vector<Mirror>& planes) {
+                           const std::string& file, bool with_cells, const std::vector<Mirror>& planes,
+                           FacesOnPlanes* apart) {
   check_corners(slice, file);
   const std::vector<Share> shares = Shares(slice, file).gatherv();
   std::optional<Cells> cells;
@@ -173,7 +183,7 @@ PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const s
     check_parts(share.volume, number, file);
     if (with_cells) {
       check_parts(cells->volume(n), number, file);
-      cells->give(n, cloud);
+      cells->give(n, cloud, apart);
     }
     for (const auto& [block, volume] : share.taken) {
       cloud.taken_volumes[share.block * cloud.block_names.size() + block] += volume;

@@ -109,20 +109,19 @@ std::vector<SideFace> without_halves(const std::vector<SideFace>& faces, const C
 
 std::vector<Face> without_continued(const std::vector<Face>& faces, const MeshSlice& slice,
                                     const std::vector<Mirror>& planes, const Communicator& communicator) {
-  std::vector<Mirror> mirrors, sides;
-  for (const Mirror& plane : planes) (plane.period > 0 ? sides : mirrors).push_back(plane);
+  std::vector<Mirror> sides;
+  std::ranges::copy_if(planes, std::back_inserter(sides), [](const Mirror& plane) { return plane.period > 0; });
+  if (sides.empty()) return faces;
   std::vector<Face> surface;
   std::vector<SideFace> on_sides;
   for (const Face& face : faces) {
-    if (is_on(mirrors, face, slice.mesh)) continue;
-    const auto side = std::ranges::find_if(sides, [&](const Mirror& one) { return is_on({one}, face, slice.mesh); });
+    const auto side = std::ranges::find_if(sides, [&](const Mirror& one) { return is_on(one, face, slice.mesh); });
     if (side == sides.end()) {
       surface.push_back(face);
     } else {
       on_sides.push_back({face, key_of(face, slice.mesh, sides), static_cast<int>(side - sides.begin())});
     }
   }
-  if (sides.empty()) return surface;
   for (const SideFace& one : without_halves(without_twin(on_sides, communicator), communicator))
     surface.push_back(one.face);
   std::ranges::stable_sort(surface, {}, &Face::element);

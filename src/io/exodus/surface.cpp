@@ -128,11 +128,17 @@ std::vector<Face> faces_of(const Mesh& mesh, const std::vector<Side>& sides, con
 
 }  // namespace
 
-bool is_on(const std::vector<Mirror>& planes, const Face& face, const Mesh& mesh) {
+bool is_on(const Mirror& plane, const Face& face, const Mesh& mesh) {
   const double size = std::sqrt(face.area.norm());
-  return std::ranges::any_of(planes, [&](const Mirror& plane) {
-    return std::ranges::all_of(face.corners(), [&](int node) { return plane.holds(mesh.nodes[node], size); });
-  });
+  return std::ranges::all_of(face.corners(), [&](int node) { return plane.holds(mesh.nodes[node], size); });
+}
+
+std::uint32_t planes_of(const std::vector<Mirror>& planes, const Face& face, const Mesh& mesh) {
+  std::uint32_t bits = 0;
+  for (const Mirror& plane : planes) {
+    if (plane.period == 0 && is_on(plane, face, mesh)) bits |= std::uint32_t{1} << plane.bit;
+  }
+  return bits;
 }
 
 Vector Face::middle(const Mesh& mesh) const {

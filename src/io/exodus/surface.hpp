@@ -20,8 +20,10 @@ struct Face {
   Vector middle_at(const Mesh& mesh, std::size_t c) const;
 };
 
-// True if it lies on one of the planes, where the body continues.
-bool is_on(const std::vector<Mirror>& planes, const Face& face, const Mesh& mesh);
+// True if it lies on the plane, or side.
+bool is_on(const Mirror& plane, const Face& face, const Mesh& mesh);
+// The bits (Mirror::bit) of the symmetry planes that it lies on; sides do not count.
+std::uint32_t planes_of(const std::vector<Mirror>& planes, const Face& face, const Mesh& mesh);
 
 // The surface faces of hexahedra and tetrahedra, in an order that depends only on the mesh: of the elements here, as if
 // there were no others; and, collective, those of the whole mesh that belong to elements here.

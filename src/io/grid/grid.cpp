@@ -43,24 +43,28 @@ PointCloud part_of_grid(const Vector& origin, const Vector& cell, const std::arr
   return cloud;
 }
 
-// True if the face of a cell around X at X[axis] ± half an edge is on one of the planes.
-bool is_on(const std::vector<Mirror>& planes, const Vector& X, int axis, double half) {
-  const Vector middle = X + half * Vector::Unit(axis);
-  return std::ranges::any_of(planes, [&](const Mirror& plane) {
-    return std::abs(std::abs(plane.normal[axis]) - 1) < 1e-9 && plane.holds(middle, std::abs(half));
-  });
+// Adds the face of the last cell at X[axis] ± half an edge, X being its center; none on a periodic side, where the grid
+// goes on.
+void add_end(const Vector& cell, int axis, double half, const std::vector<Mirror>& planes, PointCloud& cloud,
+             FacesOnPlanes* apart) {
+  FaceOnPlanes face{.point = cloud.shapes.size() - 1};
+  const Vector middle = cloud.positions[face.point] + half * Vector::Unit(axis);
+  for (const Mirror& plane : planes) {
+    if (std::abs(std::abs(plane.normal[axis]) - 1) > 1e-9 || !plane.holds(middle, std::abs(half))) continue;
+    if (plane.period > 0) return;
+    face.planes |= std::uint32_t{1} << plane.bit;
+  }
+  face.area[axis] = std::copysign(cell.prod() / cell[axis], half);
+  face.moments(axis, axis) = cell.prod() / 2;
+  add_face(face, cloud, apart);
 }
 
-// Sets the part of the box's surface in the cell with the indices `at`, whose center is X.
-void set_surface(const std::array<int, 3>& at, const std::array<int, 3>& points, const Vector& cell, const Vector& X,
-                 const std::vector<Mirror>& planes, CellShape& shape) {
+// Adds the part of the box's surface in the last cell, which has the indices `at`.
+void add_surface(const std::array<int, 3>& at, const std::array<int, 3>& points, const Vector& cell,
+                 const std::vector<Mirror>& planes, PointCloud& cloud, FacesOnPlanes* apart) {
   for (int axis = 0; axis < 3; ++axis) {
-    const auto at_end = [&](int last, double half) {
-      return at[axis] == last && !is_on(planes, X, axis, half) ? 1 : 0;
-    };
-    const int upper = at_end(points[axis] - 1, 0.5 * cell[axis]), lower = at_end(0, -0.5 * cell[axis]);
-    shape.surface[axis] = (upper - lower) * cell.prod() / cell[axis];
-    shape.surface_moments(axis, axis) = (upper + lower) * cell.prod() / 2;
+    if (at[axis] == points[axis] - 1) add_end(cell, axis, 0.5 * cell[axis], planes, cloud, apart);
+    if (at[axis] == 0) add_end(cell, axis, -0.5 * cell[axis], planes, cloud, apart);
   }
 }
 
@@ -81,14 +85,13 @@ std::vector<std::int64_t> corners_of(const std::array<int, 3>& at, const std::ar
 }
 
 void add_cells(const Vector& cell, const Vector& origin, const std::array<int, 3>& points,
-               const std::vector<Mirror>& planes, PointCloud& cloud) {
+               const std::vector<Mirror>& planes, PointCloud& cloud, FacesOnPlanes* apart) {
   const Vector squares = cell.cwiseAbs2() / 12;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const std::int64_t id = cloud.ids[i];
     const std::array<int, 3> at = place_of(id, points);
-    CellShape& shape = cloud.shapes.emplace_back();
-    shape.moments.head<3>() = squares;
-    set_surface(at, points, cell, cloud.positions[i], planes, shape);
+    cloud.shapes.emplace_back().moments.head<3>() = squares;
+    add_surface(at, points, cell, planes, cloud, apart);
     cloud.shared_nodes.push_back(corners_of(at, points, cell, origin, planes));
   }
   cloud.has_shared_nodes = true;
@@ -115,13 +118,13 @@ void add_boxes(const std::array<int, 3>& points, const std::array<int, 3>& reach
 
 PointCloud make_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points,
                      const Communicator& communicator, bool with_cells, const std::vector<Mirror>& planes,
-                     const std::optional<std::array<int, 3>>& box) {
+                     const std::optional<std::array<int, 3>>& box, FacesOnPlanes* apart) {
   check_count(points);
   const Vector cell = length.cwiseQuotient(Vector(points[0], points[1], points[2]));
   const std::int64_t total = std::int64_t{points[0]} * points[1] * points[2];
   PointCloud cloud = part_of_grid(origin, cell, points, slice_begin(total, communicator.size(), communicator.rank()),
                                   slice_begin(total, communicator.size(), communicator.rank() + 1));
-  if (with_cells) add_cells(cell, origin, points, planes, cloud);
+  if (with_cells) add_cells(cell, origin, points, planes, cloud, apart);
   if (box) cloud.shared_nodes.clear(), add_boxes(points, *box, cloud);
   return cloud;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "topology/cloud.hpp"
+#include "topology/faces_on_planes.hpp"
 #include "topology/mirror.hpp"
 
 namespace strut {
@@ -15,11 +16,11 @@ namespace strut::io {
 
 // Collective. Makes `points` cells along x, y, z, x fastest, in the block "block_1"; each rank gets a contiguous slice.
 // `with_cells`: also shapes, and shared nodes, which are the corners of the cells; faces on symmetry `planes` are no
-// surface.
+// surface, and go to `apart`.
 // `box`: shared nodes are boxes of cells instead, with so many beyond the first along each axis: cells that share one
 // are in each other's box of that reach.
 PointCloud make_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points,
                      const Communicator& communicator, bool with_cells = false, const std::vector<Mirror>& planes = {},
-                     const std::optional<std::array<int, 3>>& box = {});
+                     const std::optional<std::array<int, 3>>& box = {}, FacesOnPlanes* apart = nullptr);
 
 }  // namespace strut::io

@@ -398,6 +398,40 @@ TEST(Tools, ThatAreApartFromAllPointsAreToldOf) {
             std::string::npos);
 }
 
+// A tool presses the points that move with it, by more than half a spacing in equilibria up to 1 s, to 1.1 s from
+// there, and on to 1.2 s: after an earlier run points are where it left them.
+TEST(Tools, ThatGoOnPressingAreNotWarnedOf) {
+  const RunFolder folder;
+  const auto said = [&](const std::string& name, const std::string& from, const std::string& to, Start start) {
+    Parts parts;
+    parts.conditions = section("press", key("Type", "Rigid Plane") + key("Point", "0 0 6e-3") +
+                                            key("Normal", "0 0 -1") + key("Travel Z", "-6e-4*t")) +
+                       along("with it", "Prescribed Velocity", "top", "z", "-6e-4") +
+                       along("foot", "Prescribed Displacement", "foot", "xyz", "0");
+    parts.times = key("Initial Time", from) + key("Final Time", to);
+    const std::string verlet = section("Verlet", parts.verlet);
+    const std::string restart = section("Restart", key("Filename", (folder / (name + ".restart")).string()));
+    const std::string first = (folder / "first.restart").string();
+    const std::string text = changed(
+        changed(parts.text(), verlet, section("QuasiStatic", key("Number of Load Steps", "2"))), "<ParameterList>\n",
+        "<ParameterList>\n" + restart + (name == "first" ? "" : section("Start From", key("Checkpoint", first))));
+    testing::internal::CaptureStdout();
+    EXPECT_TRUE(run(folder.write(name + ".xml", text), folder.world, start));
+    return testing::internal::GetCapturedStdout();
+  };
+  const auto at_rank_0 = [&](const std::string& name, const std::string& from, const std::string& to, Start start) {
+    const std::string all = said(name, from, to, start);
+    if (folder.world.rank() == 0) {
+      EXPECT_NE(all.find("connected piece"), std::string::npos) << all;
+    }
+    EXPECT_EQ(all.find("the tool 'press' runs into"), std::string::npos) << all;
+    EXPECT_EQ(all.find("inside of the tool 'press'"), std::string::npos) << all;
+  };
+  at_rank_0("first", "0", "1", Start::anew);
+  at_rank_0("second", "1", "1.1", Start::anew);
+  at_rank_0("second", "1", "1.2", Start::continued);
+}
+
 // Tools act last: what a condition holds along their normal is moved all the same, here by 0.1 mm and more in 10 µs.
 TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
   const auto told = [](const std::string& conditions, const std::string& travel) {

@@ -267,5 +267,47 @@ TEST(Symmetry, IsToldWhereThereIsNone) {
             std::string::npos);
 }
 
+// Faces on a plane are surface unless the body that they are of goes on behind it: the plane of a block is plane
+// strain, as that of `all`, and a plate beside a bar that goes on ends there.
+TEST(Symmetry, TakesFacesFromTheSurfaceOnlyWhereImagesAre) {
+  struct Areas {
+    double below, left_of_bar, left_of_plate;  // squares of the spacing
+  };
+  const auto areas = [](const std::string& points, const std::string& conditions) {
+    const RunFolder folder({.plate_layers = 2});
+    Parts parts;
+    parts.points = points;
+    parts.node_sets = key("left", "x &lt; 0.9e-3 &amp;&amp; z &lt; 4.1e-3");  // all of the bar's points there
+    const auto block = [](const std::string& name) {
+      return section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                               key("Separate Body", "true") + key("Bonds Across Voids", "false"));
+    };
+    parts.blocks = block("bar") + block("plate");
+    parts.conditions = conditions;
+    const Simulation run(folder, parts);
+    const PointCloud& cloud = run.scene.body.domain.cloud;
+    double sums[3] = {0, 0, 0};
+    for (int i = 0; i < run.scene.body.owned(); ++i) {
+      const bool is_plate = cloud.block_names[cloud.blocks[i]] == "plate";
+      if (run.reference(i)[2] < 0.9e-3) sums[0] -= cloud.shapes[i].surface[2] / (h * h);
+      if (run.reference(i)[0] < 0.9e-3) sums[is_plate ? 2 : 1] -= cloud.shapes[i].surface[0] / (h * h);
+    }
+    run.world().sum(sums);
+    return Areas{sums[0], sums[1], sums[2]};
+  };
+  constexpr double round_off_of_sums = 1e-9;
+  for (const std::string points : {"Elements", "Nodes"}) {
+    const Areas all = areas(points, plane("p", "Symmetry Plane", "all", "0 0 0", "0 0 1"));
+    const Areas blocks = areas(points, plane("p", "Symmetry Plane", "bar", "0 0 0", "0 0 1"));
+    const Areas mirrored = areas(points, plane("p", "Symmetry Plane", "foot", "0 0 0", "0 0 1"));
+    EXPECT_NEAR(all.below, 16, round_off_of_sums);
+    EXPECT_NEAR(blocks.below, 16, round_off_of_sums);
+    EXPECT_NEAR(mirrored.below, 0, round_off_of_sums);
+    const Areas part = areas(points, plane("p", "Symmetry Plane", "left", "0 0 0", "1 0 0"));
+    EXPECT_NEAR(part.left_of_plate, all.left_of_plate, round_off_of_sums);
+    EXPECT_NEAR(part.left_of_bar, 0, round_off_of_sums);
+  }
+}
+
 }  // namespace
 }  // namespace strut::regression

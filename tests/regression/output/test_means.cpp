@@ -128,5 +128,25 @@ TEST(ContactForce, ExplainsTheMomentumOfBothBlocks) {
   }
 }
 
+// A probe is one point, of which mean and sum are the same.
+TEST(Means, AndSumsOfAProbe) {
+  const RunFolder folder;
+  Parts parts;
+  parts.conditions = along("z", "Initial Velocity", "all", "z", "3 + 1000*z");
+  parts.times = key("Final Time", "1e-7");
+  std::string names;
+  for (const std::string name : {"Velocity_Z(tip)", "Mean_Velocity_Z(tip)", "Sum_Velocity_Z(tip)"})
+    names += key(name, "true");
+  parts.history = key("Filename", (folder / "history.csv").string()) + key("Frequency", "1") +
+                  section("Variables", names) + section("Probes", section("tip", key("Point", "0 0 6e-3")));
+  testing::internal::CaptureStdout();
+  run(folder.write("deck.xml", parts.text()), folder.world);
+  testing::internal::GetCapturedStdout();
+  const Table table = read_history(folder / "history.csv");
+  EXPECT_NEAR(table.at("Sum_Velocity_Z(tip)").front(), 3 + 5.5, 1e-13);
+  EXPECT_EQ(table.at("Sum_Velocity_Z(tip)"), table.at("Velocity_Z(tip)"));
+  EXPECT_EQ(table.at("Sum_Velocity_Z(tip)"), table.at("Mean_Velocity_Z(tip)"));
+}
+
 }  // namespace
 }  // namespace strut::regression

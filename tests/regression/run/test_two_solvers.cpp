@@ -184,5 +184,30 @@ TEST(TwoSolvers, ACheckTellsOfTheSteps) {
   EXPECT_NE(said.find("critical time step", next), std::string::npos) << said;
 }
 
+// A Wall Time ends such a run without a checkpoint: that is told, and --continue does not replace what it has left.
+TEST(TwoSolvers, AWallTimeLeavesNothingToGoOnFrom) {
+  Parts parts;
+  parts.conditions = held;
+  const RunFolder folder;
+  parts.history = key("Filename", (folder / "history.csv").string()) + section("Variables", "");
+  const std::string text =
+      changed(deck_of(parts), key("Final Time", "1"), key("Final Time", "1") + key("Wall Time", "1e-9"));
+  const std::filesystem::path deck = folder.write("deck.xml", text);
+  testing::internal::CaptureStdout();
+  EXPECT_FALSE(run(deck, folder.world, Start::continued));  // there is nothing yet
+  const auto rows = read_history(folder / "history.csv");
+  std::string error;
+  try {
+    run(deck, folder.world, Start::continued);
+  } catch (const Error& raised) {
+    error = raised.what();
+  }
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_NE(error.find("Solver > Wall Time: ends a run"), std::string::npos) << error;
+  EXPECT_EQ(read_history(folder / "history.csv"), rows);
+  if (folder.world.rank() != 0) return;
+  EXPECT_NE(said.find("Solver > Wall Time ends a run of two solvers without a checkpoint"), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace strut::regression

@@ -276,6 +276,33 @@ const std::vector<Case> pairs = {
 };
 INSTANTIATE_TEST_SUITE_P(Pairs, OneProblem, testing::ValuesIn(pairs), name_of);
 
+const char* const of_text = R"(<Parameter name="Type" type="string" value="Text File"/>)";
+
+// Keys that only one type of mesh has.
+TEST(DeckErrors, KeysOfOtherMeshesAreRefused) {
+  const DeckFolder folder;
+  const std::string box = R"(<Parameter name="NeighborhoodType" type="string" value="Box"/>)";
+  EXPECT_EQ(
+      folder.error(changed(full_deck, of_text, of_text + box)),
+      "deck.xml: 1 problem\n  Discretization > NeighborhoodType: 'Box'; expected 'Spherical': only Type 'PdQuickGrid' "
+      "has boxes of cells");
+  const auto integer = [](const std::string& name) {
+    return R"(<Parameter name=")" + name + R"(" type="int" value="3"/>)";
+  };
+  std::string axes;
+  for (const std::string axis : {"X", "Y", "Z"})
+    axes += integer(axis + " Origin") + integer(axis + " Length") + integer("Number Points " + axis);
+  const std::string grid = R"(<Parameter name="Type" type="string" value="PdQuickGrid"/>)";
+  const std::string of_grid =
+      changed(changed(full_deck, R"(<Parameter name="Input Mesh File" type="string" value="bar.txt"/>)", ""), of_text,
+              grid + box + R"(<ParameterList name="TensorProduct3DMeshGenerator">)" + grid + axes + "</ParameterList>");
+  EXPECT_EQ(folder.error(of_grid), "");
+  const std::string nodes = R"(<Parameter name="Points" type="string" value="Nodes"/>)";
+  EXPECT_EQ(folder.error(changed(of_grid, box, box + nodes)),
+            "deck.xml: 1 problem\n  Discretization > Points: 'Nodes'; a PdQuickGrid has the centers of cells only: "
+            "expected 'Elements' (nodes have Exodus meshes of hexahedra or tetrahedra)");
+}
+
 // ---- Slow loading --------------------------------------------------------------------------------------------------
 
 std::string in_quasi_static(const std::string& parameters) {

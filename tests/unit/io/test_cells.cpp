@@ -262,6 +262,20 @@ TEST_F(Cells, OfAGridAreThoseOfTheMeshOfItsCells) {
     EXPECT_LT((grid.shapes[i].surface - mesh.shapes[i].surface).norm(), 1e-15);
   }
   EXPECT_TRUE(make_grid({0, 0, 0}, {3, 1, 1.5}, {3, 2, 4}, world).shapes.empty());
+  // Faces on symmetry planes are kept apart; with them the surface is the same.
+  FacesOnPlanes faces;
+  PointCloud before_plane = make_grid({0, 0, 0}, {3, 1, 1.5}, {3, 2, 4}, world, true, {Mirror{.bit = 2}}, {}, &faces);
+  double apart = 0;
+  for (FaceOnPlanes face : faces) {
+    EXPECT_EQ(face.planes, 4u);
+    apart += face.area[0], face.planes = 0;
+    add_face(face, before_plane);
+  }
+  EXPECT_NEAR(world.sum(apart), -1.5, 1e-15);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    EXPECT_EQ(before_plane.shapes[i].surface, grid.shapes[i].surface);
+    EXPECT_EQ(before_plane.shapes[i].surface_moments, grid.shapes[i].surface_moments);
+  }
 }
 
 // ---- Cells that are partly filled ----------------------------------------------------------------------------------

@@ -207,6 +207,15 @@ TEST_F(NodePoints, ABlockWithoutNodesOfItsOwnIsAnError) {
   }
 }
 
+// As with points at elements.
+TEST_F(NodePoints, ABlockWithoutElementsIsNone) {
+  Mesh mesh = bricks({0, 1}, {0, 1}, {0, 1, 2});
+  mesh.blocks.push_back({"empty", "HEX8", {}, {}});
+  const PointCloud cloud = read(mesh);
+  EXPECT_EQ(world.sum(std::ssize(cloud.ids)), 12);
+  EXPECT_EQ(cloud.block_names, (std::vector<std::string>{"bricks", "empty"}));
+}
+
 TEST_F(NodePoints, AreRefusedForSpheresAndElementsInsideOut) {
   const auto error = [&](const Mesh& mesh) -> std::string {
     try {
