@@ -145,7 +145,6 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   check_missing(file_, parts.missing, communicator_);
   raise_together(communicator_, other_stretch(deck, body.domain.periods, snapshot));
   pass(Archive::loading_from(snapshot), last_step);
-  for (PointExpansion& point : *body.expansion) point.work = 0;
   if (!keeps_velocities_) {
     std::ranges::fill(body.velocity, Vector::Zero());
   } else if (!goes_on_ && !changes_.after_equilibria) {
