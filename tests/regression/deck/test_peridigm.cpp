@@ -303,6 +303,21 @@ TEST(DialectOfPeridigm, HeldPointsBeginWhereTheyAreHeld) {
   }
 }
 
+// Points may be held where their body begins, and a plane keeps its points.
+TEST(DialectOfPeridigm, DisplacedBodiesAreHeldWhereTheyBegin) {
+  const std::string all = along("strain", "Initial Displacement", "all", "x", "1e-6");
+  for (const auto& [held, of_foot] : {std::pair(along("foot", "Prescribed Displacement", "foot", "x", "1e-6"), 1e-6),
+                                      {plane("half", "Symmetry Plane", "foot", "0 0 0", "1 0 0"), 0.0}}) {
+    const RunFolder folder(Lattice{.nx = 3, .ny = 3, .nz = 8});
+    Parts parts;
+    parts.conditions = all + held;
+    Simulation run(folder, parts);
+    for (int i = 0; i < run.body().owned(); ++i) {
+      EXPECT_NEAR(run.body().current(i)[0] - run.reference(i)[0], run.in_set(i, "foot") ? of_foot : 1e-6, 1e-17);
+    }
+  }
+}
+
 // A strained bar that is let go, in steps near the critical one: what the scheme conserves starts with half a step, and
 // the balance says so. Where strains are small forces are linear, and it is closed to round-off.
 TEST(DialectOfPeridigm, AStrainedBodyKeepsItsEnergy) {

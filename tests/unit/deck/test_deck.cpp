@@ -719,6 +719,12 @@ TEST(Changes, OfMassesWithinASectionOfStepsAreRefused) {
   EXPECT_EQ(changes(scaled, without).refused,
             std::vector<std::string>{"Solver > Verlet > Mass Scaling dt: 1e-07 before, nothing now"});
   EXPECT_TRUE(changes(without, full_deck).refused.empty());
+  // The wanted step over the safety factor is the critical one, for which mass is added.
+  const std::string of_steps = R"(<Parameter name="Mass Scaling dt" type="double" value="1e-7"/>)";
+  const std::string safer =
+      changed(scaled, of_steps, of_steps + R"(<Parameter name="Safety Factor" type="double" value="0.5"/>)");
+  EXPECT_EQ(changes(scaled, safer).refused,
+            std::vector<std::string>{"Solver > Verlet > Safety Factor: 0.8 before, 0.5 now"});
 }
 
 // A default that is written down is none; a key that goes back to its default is one.
