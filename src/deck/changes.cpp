@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/errors.hpp"
 #include "deck/check.hpp"
 #include "deck/peridigm/peridigm.hpp"
 #include "deck/whole.hpp"
@@ -27,6 +28,19 @@ Texts texts_of(const std::string& deck) {
 }
 
 const std::string section_text = Values::section_text;
+
+// The names of the conditions, in the deck's order, by which a run names what it keeps of them.
+std::vector<std::string> conditions_of(const std::string& deck) {
+  Problems ignored;
+  std::vector<std::string> names;
+  if (auto list = parse_xml_or_yaml(deck, ignored)) {
+    translate_peridigm(*list, {}, ignored);
+    if (List* conditions = find_list(*list, "Boundary Conditions")) {
+      for (const List& one : conditions->lists) names.push_back(one.name);
+    }
+  }
+  return names;
+}
 
 std::string text_at(const Texts& texts, const std::string& path) {
   const auto found = texts.find(path);
@@ -191,6 +205,7 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     return all;
   };
   changes.same_loads = changes.same_loads && sets_of(other) == sets_of(now);
+  changes.same_conditions = changes.same_conditions && conditions_of(other_deck) == conditions_of(deck);
   for (const char* const file : {"Output > Output Filename", "History > Filename"}) {
     if (other.contains(file) && now.contains(file) && other.at(file) == now.at(file))
       changes.same_files.push_back(file);
@@ -211,6 +226,10 @@ Changes changes(const std::string& before, const std::string& now) {
                  : is_load(path, old_texts) && is_load(path, new_texts) ? changes.loads
                                                                         : changes.refused;
     kind.push_back(path + ": " + both(was, "before", is, "now"));
+  }
+  const std::vector<std::string> was = conditions_of(before), is = conditions_of(now);
+  if (was != is && std::ranges::is_permutation(was, is)) {
+    changes.refused.push_back("Boundary Conditions, in their order: " + both(joined(was), "before", joined(is), "now"));
   }
   return changes;
 }
