@@ -7,7 +7,6 @@
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
-#include "io/checkpoint/checkpoint_file.hpp"
 #include "mechanics/energies.hpp"
 #include "mechanics/serialize.hpp"
 #include "setup/conditions.hpp"
@@ -72,9 +71,9 @@ std::optional<StartState> start_state_of(const deck::Deck& deck, const Communica
 
 StartState::StartState(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems)
     : file_(deck.start_from->checkpoint), communicator_(communicator) {
-  io::CheckpointFacts facts;
   try {
-    facts = io::facts_of_checkpoint(file_, communicator);
+    facts_ = io::facts_of_checkpoint(file_, communicator);
+    file_ = facts_.file;
   } catch (const Error& error) {
     std::string why = error.what();
     run_on_root(communicator, [&] {
@@ -95,8 +94,8 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
           "'Initial Displacement' has no meaning beside Start From, whose points begin where the other run left "
           "them; expected another condition");
   }
-  time_ = facts.time;
-  changes_ = deck::start_changes(facts.deck, deck.text);
+  time_ = facts_.time;
+  changes_ = deck::start_changes(facts_.deck, deck.text);
   for (const std::string& one : changes_.refused)
     problems.add(one + "; expected the bodies of " + file_.string() + " (" + key + ")");
   spare_files(deck, problems);
@@ -141,8 +140,8 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   Snapshot snapshot;
   pass(Archive::saving_to(snapshot), last_step);
   const auto all = [](const std::string&) { return true; };
-  const io::Parts parts = io::read_checkpoint_parts(file_, communicator_, all, snapshot);
-  check_missing(file_, parts.missing, communicator_);
+  const std::vector<std::string> missing = io::read_checkpoint_parts(facts_, communicator_, all, snapshot);
+  check_missing(file_, missing, communicator_);
   raise_together(communicator_, other_stretch(deck, body.domain.periods, snapshot));
   pass(Archive::loading_from(snapshot), last_step);
   for (PointExpansion& point : *body.expansion) point.work = 0;
@@ -159,11 +158,11 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   if (!goes_on_) body.previous_velocity = *body.velocity;
   const auto knows_reaches = [&](int tool) {
     const std::string name = "all points > tool_" + std::to_string(tool) + "_reach";
-    return changes_.same_conditions && std::ranges::find(parts.missing, name) == parts.missing.end();
+    return changes_.same_conditions && std::ranges::find(missing, name) == missing.end();
   };
   begin_from_here(deck, {goes_on_, changes_.same_conditions}, knows_reaches, scene, communicator_);
   const bool jumps = keeps_velocities_ && !changes_.after_equilibria && !changes_.masses.empty();
-  return (parts.note.empty() ? "" : "WARNING: " + parts.note + "\n") +
+  return (facts_.note.empty() ? "" : "WARNING: " + facts_.note + "\n") +
          (jumps ? "WARNING: " + changes_.masses + ": momentum and kinetic energy are not those of the checkpoint\n"
                 : "") +
          story(deck, scene);
@@ -223,7 +222,7 @@ void StartState::take_steps(Solver& solver, void (Solver::*serialize)(Archive&))
   Archive asks = Archive::saving_to(snapshot);
   (solver.*serialize)(asks);
   const auto takes = [this](const std::string& name) { return takes_of_steps(name); };
-  check_missing(file_, io::read_checkpoint_parts(file_, communicator_, takes, snapshot).missing, communicator_);
+  check_missing(file_, io::read_checkpoint_parts(facts_, communicator_, takes, snapshot), communicator_);
   Archive restores = Archive::loading_from(snapshot);
   (solver.*serialize)(restores);
 }

@@ -371,6 +371,23 @@ class Starts(InFolder):
             else:
                 strut.Run(again, block.mesh())
 
+    def test_a_damaged_checkpoint_gives_way_to_the_one_before_as_a_whole(self):
+        deck = but(block.deck(), History={"Frequency": 1})
+        whole = strut.run(deck, block.mesh())
+        kept = but(deck, Restart={"Filename": "first.restart", "Frequency": 10})
+        run = strut.Run(kept, block.mesh())
+        run.advance(steps=20)
+        run.end()
+        file = pathlib.Path("first.restart")
+        damaged = bytearray(file.read_bytes())
+        damaged[len(damaged) // 2] ^= 1
+        file.write_bytes(damaged)
+        before = whole.history["Time"][20]
+        run = strut.run(start(deck, "first.restart", before), block.mesh())
+        for told in ("going on from the one before, first.restart.old", "starts from first.restart.old", "goes on with its steps"):
+            self.assertIn(told, run.log)
+        self.assertGoesOn(whole, run)
+
     def test_a_tool_meets_the_body_where_it_is(self):
         """The uppermost points, half a spacing below the top, have gone down by 0.8 mm. A warning is of a tool that they are in."""
         def between(way):
