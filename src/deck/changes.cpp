@@ -175,6 +175,21 @@ void compare_images(const Texts& other, const Texts& now, std::vector<std::strin
   }
 }
 
+// The files that a run has written, as seen from the folder of its checkpoint, wherever it ran.
+std::vector<std::filesystem::path> files_of(const Texts& texts) {
+  const std::string checkpoint = "Restart > Filename";
+  const std::filesystem::path named = texts.contains(checkpoint) ? texts.at(checkpoint) : "";
+  const std::filesystem::path from_there = std::filesystem::path(".").lexically_relative(named.parent_path());
+  std::vector<std::filesystem::path> files;
+  for (const char* const key : {"Output > Output Filename", "History > Filename"}) {
+    if (!texts.contains(key)) continue;
+    std::filesystem::path file = texts.at(key);
+    if (!file.has_extension() && std::string_view(key).starts_with("Output")) file += ".e";
+    files.push_back(from_there / file);
+  }
+  return files;
+}
+
 }  // namespace
 
 StartChanges start_changes(const std::string& other_deck, const std::string& deck) {
@@ -206,10 +221,7 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
   };
   changes.same_loads = changes.same_loads && sets_of(other) == sets_of(now);
   changes.same_conditions = changes.same_conditions && conditions_of(other_deck) == conditions_of(deck);
-  for (const char* const file : {"Output > Output Filename", "History > Filename"}) {
-    if (other.contains(file) && now.contains(file) && other.at(file) == now.at(file))
-      changes.same_files.push_back(file);
-  }
+  changes.files = files_of(other);
   return changes;
 }
 

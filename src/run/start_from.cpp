@@ -110,20 +110,22 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
 
 // A deck made from that of the other run names its files, too, which are in the folder of its checkpoint.
 void StartState::spare_files(const deck::Deck& deck, deck::Problems& problems) const {
-  for (const std::string& key_of_file : changes_.same_files) {
-    const std::filesystem::path& file = key_of_file.starts_with("Output") ? deck.output.file : deck.history.file;
+  const auto spare = [&](const std::string& key_of_file, const std::filesystem::path& mine) {
     std::string why;
     run_on_root(communicator_, [&] {
-      std::error_code ignored;
-      const std::filesystem::path beside = file_.parent_path() / file;
-      if (std::filesystem::equivalent(beside, file, ignored)) {
-        why = "'" + file.string() + "' is of the run that " + file_.string() +
+      for (const std::filesystem::path& file : changes_.files) {
+        std::error_code ignored;
+        if (!std::filesystem::equivalent(file_.parent_path() / file, mine, ignored)) continue;
+        why = "'" + mine.string() + "' is of the run that " + file_.string() +
               " comes from, and would be replaced; expected another name";
       }
     });
     communicator_.broadcast(why);
     if (!why.empty()) problems.add(key_of_file, why);
-  }
+  };
+  if (deck.output.enabled) spare("Output > Output Filename", deck.output.file);
+  if (deck.history.has_file()) spare("History > Filename", deck.history.file);
+  if (deck.restart.enabled) spare("Restart > Filename", deck.restart.file);
 }
 
 std::string StartState::restore(const deck::Deck& deck, Scene& scene) {

@@ -410,6 +410,8 @@ class Starts(InFolder):
     def test_what_cannot_start_is_refused_by_name(self):
         deck = block.deck(Output=block.output("first.e"))
         ended(deck, 5, block.mesh())
+        os.mkdir("kept")
+        ended(but(deck, Output=block.output("kept.e")), 5, block.mesh(), "kept/first.restart")
         metal, foam = deck["Materials"]["metal"], deck["Blocks"]["block"]
         other = strut.voxels(np.ones((4, 5, 8), bool), SPACING, name="block")
         plane = {"Type": "Symmetry Plane", "Node Set": "block_xmax", "Point": [4 * SPACING, 0, 0], "Normal": [-1, 0, 0]}
@@ -424,6 +426,8 @@ class Starts(InFolder):
             ({"Boundary Conditions": {**conditions, "side": plane}}, block.mesh(), "Boundary Conditions > side: not there"),
             ({"Boundary Conditions": {**conditions, "top": top}}, block.mesh(), "Boundary Conditions > top > Value"),
             ({"Output": block.output("first.e")}, block.mesh(), "Output > Output Filename: 'first.e' is of the run that first.restart comes"),
+            ({"Output": block.output("./first")}, block.mesh(), "Output > Output Filename: './first.e' is of the run"),
+            ({"Output": block.output("kept.e"), "Start From": {"Checkpoint": "kept/first.restart"}}, block.mesh(), "'kept.e' is of the run"),
             ({"Start From": {"Checkpoint": "first.e"}}, block.mesh(), "first.e is a result"),
             ({"Start From": {"Checkpoint": "none"}}, block.mesh(), "Start From > Checkpoint: none: there is no such file"),
             ({"Start From": {}}, block.mesh(), "Start From > Checkpoint: missing"),
