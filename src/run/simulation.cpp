@@ -143,6 +143,8 @@ void Run::Parts::make_solver(StartState* state) {
   const auto make = [&](auto beginning) {
     steps.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), scene->control, beginning,
                   std::move(scene->fracture));
+    // Before it is restored: the impulses of substeps are then restored, too.
+    if (writers->history.has_reactions()) steps->gather_reactions(static_cast<int>(deck.conditions.size()));
   };
   if (state && state->goes_on()) {
     make(CentralDifference::ToBeRestored());
@@ -151,7 +153,6 @@ void Run::Parts::make_solver(StartState* state) {
     make(times.initial_time);
     if (state) say(communicator, state->overlaps(steps->contact(), scene->body));
   }
-  if (writers->history.has_reactions()) steps->gather_reactions(static_cast<int>(deck.conditions.size()));
 }
 
 void Run::Parts::open(Start start) {

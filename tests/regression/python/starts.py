@@ -235,6 +235,18 @@ class Starts(InFolder):
             "Restart": {"Filename": "first.restart"},
             "Output": {"Output Filename": "bar.e", "Output Frequency": 1, "Output Variables": {"Time_Step_Level": True}}})
 
+    def test_the_first_instant_reaction_has_the_impulses_of_substeps(self):
+        foot = {"Type": "Prescribed Displacement", "Node Set": "end", "Coordinate": "xyz", "Value": "0"}
+        deck = self.two_stiffnesses()
+        deck = but(deck, Boundary_Conditions={**deck["Boundary Conditions"], "foot": foot}, Node_Sets={"end": "x > 9e-3"},
+                   History={"Frequency": 1, "Variables": {"Instant_Reaction_X(foot)": True}}, Output=None, Restart=None)
+        whole = strut.run(deck)
+        first = ended(deck, 20)
+        run = strut.run(start(deck, "first.restart", first.time))
+        force = lambda run: run.history["Instant_Reaction_X(foot)"][run.history["Time"] == first.time][0]
+        self.assertNotEqual(force(whole), 0)
+        self.assertEqual(force(run), force(whole))
+
     def test_a_strained_body_starts_with_substeps(self):
         """Its momentum and its energy stay those of the checkpoint: nothing acts on it."""
         deck = self.two_stiffnesses()
