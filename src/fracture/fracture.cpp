@@ -105,7 +105,7 @@ void Fracture::set_which(const Body& body) {
   }
 }
 
-Fracture::Fracture(Body& body) : travel_(body.domain) {
+Fracture::Fracture(Body& body, double time) : travel_(body.domain) {
   const Domain& domain = body.domain;
   set_critical_values(body);
   set_crack_lengths(body);
@@ -123,7 +123,7 @@ Fracture::Fracture(Body& body) : travel_(body.domain) {
   look_at_all(body);
   set_shortest(body);
   set_most_steepness(body);
-  set_limits(body, 0);
+  set_limits(body, time);
 }
 
 // Marks the clusters of these points, and those that have them in their families, for the next check.
@@ -385,8 +385,8 @@ double Fracture::bytes() const {
          energies_.bytes() + travel_.bytes();
 }
 
-std::optional<Fracture> fracture_of(Body& body) {
-  return body.may_break() ? std::optional<Fracture>(body) : std::nullopt;
+std::optional<Fracture> fracture_of(Body& body, double time) {
+  return body.may_break() ? std::optional<Fracture>(std::in_place, body, time) : std::nullopt;
 }
 
 std::int64_t broken_bonds(const Body& body) {

@@ -398,6 +398,13 @@ class Starts(InFolder):
             else:
                 strut.Run(again, block.mesh())
 
+    def test_a_critical_stretch_is_that_of_the_initial_time(self):
+        breaks = {"Damage Model": "Time Dependent Critical Stretch", "Time Dependent Critical Stretch": "10*t"}
+        deck = but(block.deck(), Damage_Models={"breaks": breaks}, Blocks={"block": {**block.deck()["Blocks"]["block"], "Damage Model": "breaks"}})
+        strut.Run(but(deck, Solver={"Initial Time": 1e-3, "Final Time": 1.001e-3}), block.mesh())
+        with self.assertRaisesRegex(strut.Error, "is 0 at t = 0 s"):
+            strut.Run(deck, block.mesh())
+
     def test_a_damaged_checkpoint_gives_way_to_the_one_before_as_a_whole(self):
         deck = but(block.deck(), History={"Frequency": 1})
         whole = strut.run(deck, block.mesh())
