@@ -207,6 +207,8 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     if (!within) whole = was == section_text || is == section_text ? path : "";
     if (path == "Solver > QuasiStatic" || (is_within(path, "Solver > Verlet") && path != "Solver > Verlet > Rebalance"))
       changes.same_solver = false;
+    // A Damage Model that is added changes the springs, whose forces and energies then begin anew.
+    if (path.ends_with(" > Damage Model") && !other.contains(path)) changes.same_solver = false;
     if (is_within(path, "Contact")) changes.same_contact = false;
     if (is_within(path, "Boundary Conditions") || is_within(path, "Node Sets")) changes.same_conditions = false;
     if (is_within(path, "Node Sets")) changes.same_loads = false;

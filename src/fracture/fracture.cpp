@@ -54,16 +54,6 @@ void over_breakable(AnyBody& body, Part part, const Work& work) {
   }
 }
 
-// The fraction of the springs of block.points[k] that remains with its stress.
-double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
-  if (body.force_states.tensors[block.points[k]].failed() > 0) return 0;
-  const auto part = [&block, k]<class L>(const L& law) {
-    if constexpr (materials::softens<L>) return law.part_left(block.state_of<L>(k));
-    return 1.0;
-  };
-  return std::visit(part, block.material.law);
-}
-
 // The energy missing in the balance of a point, J.
 double released(const BondWorkBalance& before, const BondWorkBalance& after) {
   return 0.5 * (before.work + after.work) - (after.energy - before.energy);
@@ -311,6 +301,16 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number, double 
     release(body, block, k);
     body.released[i] = 1;
   }
+}
+
+// The fraction of the springs of block.points[k] that remains with its stress.
+double Fracture::part_of_springs(const Body& body, const MaterialBlock& block, int k) {
+  if (body.force_states.tensors[block.points[k]].failed() > 0) return 0;
+  const auto part = [&block, k]<class L>(const L& law) {
+    if constexpr (materials::softens<L>) return law.part_left(block.state_of<L>(k));
+    return 1.0;
+  };
+  return std::visit(part, block.material.law);
 }
 
 // Counts the energy that the springs of a point lose because it softens or fails.

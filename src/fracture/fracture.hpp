@@ -67,6 +67,7 @@ class Fracture : public BondBreaking {
   };
   struct Stretches;
 
+  static double part_of_springs(const Body& body, const MaterialBlock& block, int k);
   void set_limits(const Body& body, double time);
   bool limits_change(const Body& body) const;
   void set_which(const Body& body);

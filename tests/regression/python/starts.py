@@ -398,6 +398,15 @@ class Starts(InFolder):
             else:
                 strut.Run(again, block.mesh())
 
+    def test_a_damage_model_that_is_added_makes_springs_as_stiff_as_in_a_run_of_its_own(self):
+        """0.3 instead of 0.01 of the default coefficient, at the same displacements."""
+        deck = but(block.deck(), History={"Frequency": 1})
+        first = ended(deck, 12, block.mesh())
+        second = start(deck, "first.restart", first.time, Damage_Models={"breaks": {"Damage Model": "Critical Stretch", "Critical Stretch": 0.5}},
+                       Blocks={"block": {**deck["Blocks"]["block"], "Damage Model": "breaks"}})
+        run = strut.run(second, block.mesh())
+        self.assertAlmostEqual(run.history["Stabilization_Energy"][0] / first.history["Stabilization_Energy"][-1], 30, delta=1e-9)
+
     def test_a_critical_stretch_is_that_of_the_initial_time(self):
         breaks = {"Damage Model": "Time Dependent Critical Stretch", "Time Dependent Critical Stretch": "10*t"}
         deck = but(block.deck(), Damage_Models={"breaks": breaks}, Blocks={"block": {**block.deck()["Blocks"]["block"], "Damage Model": "breaks"}})
