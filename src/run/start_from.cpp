@@ -61,6 +61,13 @@ std::string other_stretch(const deck::Deck& deck, const std::vector<Period>& per
   return "";
 }
 
+// What forces change of a velocity in half a step, without the components that did not change in the step before: a
+// condition or a tool of the other run held these at one speed, against the same forces.
+Vector without_held(const Vector& change, const Vector& before) {
+  constexpr double none = 1e-6;  // a prescribed displacement gives a speed to round-off
+  return (before.array().abs() > none * change.array().abs()).select(change, 0);
+}
+
 }  // namespace
 
 std::optional<StartState> start_state_of(const deck::Deck& deck, const Communicator& communicator,
@@ -153,8 +160,10 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
     // From the mid-step before the checkpoint to its time, with the loads there, which are known if this deck has them.
     const std::vector<Vector> inner = body.force_density;
     if (changes_.same_loads) add_forces(scene.conditions, time_, body);
-    for (int i = 0; i < body.owned(); ++i)
-      body.velocity[i] += 0.5 * last_step / body.density[i] * body.force_density[i];
+    for (int i = 0; i < body.owned(); ++i) {
+      const Vector change = 0.5 * last_step / body.density[i] * body.force_density[i];
+      body.velocity[i] += without_held(change, body.velocity[i] - body.previous_velocity[i]);
+    }
     body.force_density = inner;
   }
   if (!goes_on_) body.previous_velocity = *body.velocity;

@@ -287,6 +287,16 @@ class Starts(InFolder):
             if field in whole.fields:
                 one, other = whole.whole(field), run.whole(field)
                 self.assertLessEqual(np.abs(one - other).max(), 1e-9 * np.abs(one).max(), field)  # round-off of some steps
+
+    def test_points_that_were_held_start_at_their_speed(self):
+        """The forces against which they were held do not move them in the half step to the time of the checkpoint."""
+        columns = {"block_zmax": -20, "block_zmin": 0}
+        deck = but(block.deck(), History={"Frequency": 1, "Variables": {f"Mean_Velocity_Z({name})": True for name in columns}})
+        ended(deck, 20, block.mesh())
+        run = strut.run(start(deck, "first.restart", Boundary_Conditions={}), block.mesh())
+        for name, speed in columns.items():
+            self.assertAlmostEqual(run.history[f"Mean_Velocity_Z({name})"][0], speed, delta=1e-9)  # round-off
+
     def test_metal_that_was_put_back_is_let_go(self):
         """Where it was at first, but with residual stress: it is not taken for a body at rest."""
         way = {"sides": ("xy", "0"), "way": ("z", "2e-2*z*(t < 1 ? t : 2 - t)")}
