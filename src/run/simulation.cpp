@@ -160,6 +160,7 @@ void Run::Parts::open(Start start) {
   checkpoint.emplace(deck, communicator, [this](Archive& archive) {
     with_solver([&](auto& solver) { solver.serialize(archive); });
     monitor->serialize(archive);
+    monitor->serialize_tools(archive, scene->tools.size());
     balance.serialize(archive, scene->body);
     writers->serialize(archive, number_of_steps(), time());
   });

@@ -217,6 +217,19 @@ class Starts(InFolder):
         os.remove("first.restart")
         self.assertGoesOn(whole, strut.run(second, continued=True))
 
+    def test_tools_that_meet_after_a_run_goes_on_are_told(self):
+        """Looked at in every second step: apart in step 100, in a checkpoint of step 101, and meeting before step 102."""
+        box = lambda x, **more: {"Type": "Rigid Box", "Lower Corner": [x, 0, 0], "Upper Corner": [x + 1e-3, 1e-3, 1e-3], **more}
+        step, speed = 3e-9, 1500
+        tools = {"left": box(0.05), "right": box(0.051 + 101.5 * step * speed, **{"Mass": 1e-3, "Speed X": -speed})}
+        deck = block.deck(History={"Frequency": 50}, Restart={"Filename": "first.restart"})
+        deck = but(deck, Boundary_Conditions={**deck["Boundary Conditions"], **tools}, Solver={"Final Time": 1e-6, "Verlet": {"Fixed dt": step}})
+        run = strut.Run(deck, block.mesh())
+        run.advance(steps=99)  # it ends two steps later
+        run.end()
+        self.assertNotIn("'right' pass", run.log)
+        self.assertIn("'right' pass through each other", strut.run(deck, block.mesh(), continued=True).log)
+
     def two_stiffnesses(self):
         """A free bar that vibrates, one end of which is so stiff that its points are subcycled."""
         places = [(x, y, z) for x in range(10) for y in range(4) for z in range(4)]
@@ -423,6 +436,19 @@ class Starts(InFolder):
         strut.Run(but(deck, Solver={"Initial Time": 1e-3, "Final Time": 1.001e-3}), block.mesh())
         with self.assertRaisesRegex(strut.Error, "is 0 at t = 0 s"):
             strut.Run(deck, block.mesh())
+
+    def test_points_that_failed_in_steps_are_not_told_as_of_a_load_step(self):
+        foam = {"Material Model": "Metal Foam Correspondence", "Density": 150.0, "Young's Modulus": 300e6, "Poisson's Ratio": 0.0,
+                "Plastic Poisson's Ratio": 0.0, "Plateau Stress": 1e6, "Linear Hardening": 0.0, "Locking Stress": 2e6,
+                "Locking Exponent": 8.0, "Densification Strain": 1.0, "Failure Strain": 0.005}
+        deck = block.deck(Materials={"metal": foam}, History={"Frequency": 1})
+        conditions = deck["Boundary Conditions"]
+        deck = but(deck, Boundary_Conditions={**conditions, "top": {**conditions["top"], "Value": "100"}}, Solver={"Final Time": 6e-6})
+        first = strut.run(but(deck, Restart={"Filename": "first.restart"}), block.mesh())
+        self.assertGreater(first.whole("Failed").max(), 0)
+        rest = {"all": {"Type": "Prescribed Velocity", "Node Set": "all", "Coordinate": "xyz", "Value": "0"}}
+        slow = {"Final Time": 1.0, "QuasiStatic": {"Number of Load Steps": 1}}
+        self.assertNotIn("have failed", strut.run(start(deck, "first.restart", Boundary_Conditions=rest, Solver=slow), block.mesh()).log)
 
     def test_a_damaged_checkpoint_gives_way_to_the_one_before_as_a_whole(self):
         deck = but(block.deck(), History={"Frequency": 1})
