@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/errors.hpp"
 #include "deck/check.hpp"
 #include "deck/peridigm/peridigm.hpp"
 #include "deck/whole.hpp"
@@ -27,6 +28,19 @@ Texts texts_of(const std::string& deck) {
 }
 
 const std::string section_text = Values::section_text;
+
+// The names of the conditions, in the deck's order, by which a run names what it keeps of them.
+std::vector<std::string> conditions_of(const std::string& deck) {
+  Problems ignored;
+  std::vector<std::string> names;
+  if (auto list = parse_xml_or_yaml(deck, ignored)) {
+    translate_peridigm(*list, {}, ignored);
+    if (List* conditions = find_list(*list, "Boundary Conditions")) {
+      for (const List& one : conditions->lists) names.push_back(one.name);
+    }
+  }
+  return names;
+}
 
 std::string text_at(const Texts& texts, const std::string& path) {
   const auto found = texts.find(path);
@@ -161,6 +175,21 @@ void compare_images(const Texts& other, const Texts& now, std::vector<std::strin
   }
 }
 
+// The files that a run has written, as seen from the folder of its checkpoint, wherever it ran.
+std::vector<std::filesystem::path> files_of(const Texts& texts) {
+  const std::string checkpoint = "Restart > Filename";
+  const std::filesystem::path named = texts.contains(checkpoint) ? texts.at(checkpoint) : "";
+  const std::filesystem::path from_there = std::filesystem::path(".").lexically_relative(named.parent_path());
+  std::vector<std::filesystem::path> files;
+  for (const char* const key : {"Output > Output Filename", "History > Filename"}) {
+    if (!texts.contains(key)) continue;
+    std::filesystem::path file = texts.at(key);
+    if (!file.has_extension() && std::string_view(key).starts_with("Output")) file += ".e";
+    files.push_back(from_there / file);
+  }
+  return files;
+}
+
 }  // namespace
 
 StartChanges start_changes(const std::string& other_deck, const std::string& deck) {
@@ -169,8 +198,7 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
                        .same_solver = true,
                        .same_contact = true,
                        .same_conditions = true,
-                       .same_loads = true,
-                       .same_breaks = true};
+                       .same_loads = true};
   std::string whole;  // a section that only one of both has: its keys are not named
   for (const std::string& path : paths_of(other, now)) {
     const std::string was = text_at(other, path), is = text_at(now, path);
@@ -179,7 +207,8 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     if (!within) whole = was == section_text || is == section_text ? path : "";
     if (path == "Solver > QuasiStatic" || (is_within(path, "Solver > Verlet") && path != "Solver > Verlet > Rebalance"))
       changes.same_solver = false;
-    if (path.ends_with(" > Damage Model") && was == "nothing") changes.same_breaks = false;
+    // A Damage Model that is added changes the springs, whose forces and energies then begin anew.
+    if (path.ends_with(" > Damage Model") && !other.contains(path)) changes.same_solver = false;
     if (is_within(path, "Contact")) changes.same_contact = false;
     if (is_within(path, "Boundary Conditions") || is_within(path, "Node Sets")) changes.same_conditions = false;
     if (is_within(path, "Node Sets")) changes.same_loads = false;
@@ -193,10 +222,8 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     return all;
   };
   changes.same_loads = changes.same_loads && sets_of(other) == sets_of(now);
-  for (const char* const file : {"Output > Output Filename", "History > Filename"}) {
-    if (other.contains(file) && now.contains(file) && other.at(file) == now.at(file))
-      changes.same_files.push_back(file);
-  }
+  changes.same_conditions = changes.same_conditions && conditions_of(other_deck) == conditions_of(deck);
+  changes.files = files_of(other);
   return changes;
 }
 
@@ -213,6 +240,10 @@ Changes changes(const std::string& before, const std::string& now) {
                  : is_load(path, old_texts) && is_load(path, new_texts) ? changes.loads
                                                                         : changes.refused;
     kind.push_back(path + ": " + both(was, "before", is, "now"));
+  }
+  const std::vector<std::string> was = conditions_of(before), is = conditions_of(now);
+  if (was != is && std::ranges::is_permutation(was, is)) {
+    changes.refused.push_back("Boundary Conditions, in their order: " + both(joined(was), "before", joined(is), "now"));
   }
   return changes;
 }

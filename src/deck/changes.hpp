@@ -1,6 +1,7 @@
 // Differences between a deck and the one with which a run began, and whether the run can continue with them.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,11 @@ Changes changes(const std::string& before, const std::string& now);
 
 // How a deck that starts from the state of another run (Start From) differs from the deck of that run.
 struct StartChanges {
-  std::vector<std::string> refused;     // keys that make it another body, as above
-  std::vector<std::string> same_files;  // keys by which both decks name one file to write
-  std::string masses;                   // another mass scaling, as above; "" if it is the same
-  bool after_equilibria = false;        // the other run's solver
+  std::vector<std::string> refused;          // keys that make it another body, as above
+  std::vector<std::filesystem::path> files;  // that the other run has written, seen from the folder of its checkpoint
+  std::string masses;                        // another mass scaling, as above; "" if it is the same
+  bool after_equilibria = false;             // the other run's solver
   bool same_solver = false, same_contact = false, same_conditions = false, same_loads = false;
-  bool same_breaks = false;  // bodies may break here where they might there
 };
 StartChanges start_changes(const std::string& other, const std::string& now);
 

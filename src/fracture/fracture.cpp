@@ -54,16 +54,6 @@ void over_breakable(AnyBody& body, Part part, const Work& work) {
   }
 }
 
-// The fraction of the springs of block.points[k] that remains with its stress.
-double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
-  if (body.force_states.tensors[block.points[k]].failed() > 0) return 0;
-  const auto part = [&block, k]<class L>(const L& law) {
-    if constexpr (materials::softens<L>) return law.part_left(block.state_of<L>(k));
-    return 1.0;
-  };
-  return std::visit(part, block.material.law);
-}
-
 // The energy missing in the balance of a point, J.
 double released(const BondWorkBalance& before, const BondWorkBalance& after) {
   return 0.5 * (before.work + after.work) - (after.energy - before.energy);
@@ -105,7 +95,7 @@ void Fracture::set_which(const Body& body) {
   }
 }
 
-Fracture::Fracture(Body& body) : travel_(body.domain) {
+Fracture::Fracture(Body& body, double time) : travel_(body.domain) {
   const Domain& domain = body.domain;
   set_critical_values(body);
   set_crack_lengths(body);
@@ -123,7 +113,7 @@ Fracture::Fracture(Body& body) : travel_(body.domain) {
   look_at_all(body);
   set_shortest(body);
   set_most_steepness(body);
-  set_limits(body, 0);
+  set_limits(body, time);
 }
 
 // Marks the clusters of these points, and those that have them in their families, for the next check.
@@ -313,6 +303,16 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number, double 
   }
 }
 
+// The fraction of the springs of block.points[k] that remains with its stress.
+double Fracture::part_of_springs(const Body& body, const MaterialBlock& block, int k) {
+  if (body.force_states.tensors[block.points[k]].failed() > 0) return 0;
+  const auto part = [&block, k]<class L>(const L& law) {
+    if constexpr (materials::softens<L>) return law.part_left(block.state_of<L>(k));
+    return 1.0;
+  };
+  return std::visit(part, block.material.law);
+}
+
 // Counts the energy that the springs of a point lose because it softens or fails.
 void Fracture::soften_springs(Body& body, Part part) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
@@ -385,8 +385,8 @@ double Fracture::bytes() const {
          energies_.bytes() + travel_.bytes();
 }
 
-std::optional<Fracture> fracture_of(Body& body) {
-  return body.may_break() ? std::optional<Fracture>(body) : std::nullopt;
+std::optional<Fracture> fracture_of(Body& body, double time) {
+  return body.may_break() ? std::optional<Fracture>(std::in_place, body, time) : std::nullopt;
 }
 
 std::int64_t broken_bonds(const Body& body) {

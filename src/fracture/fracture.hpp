@@ -28,8 +28,9 @@ namespace strut {
 
 class Fracture : public BondBreaking {
  public:
-  // Collective. The families must be complete. Allocates the damage fields and sets the critical values of the blocks.
-  explicit Fracture(Body& body);
+  // Collective. The families must be complete. Allocates the damage fields and sets the critical values of the blocks
+  // at this time, s.
+  explicit Fracture(Body& body, double time = 0);
 
   // Collective. Call it before owned points move over a step of dt (s) with these velocities (m/s), and periodic sides
   // by more `stretch` along x, y, z. Otherwise no bond breaks in the stress update that follows.
@@ -66,6 +67,7 @@ class Fracture : public BondBreaking {
   };
   struct Stretches;
 
+  static double part_of_springs(const Body& body, const MaterialBlock& block, int k);
   void set_limits(const Body& body, double time);
   bool limits_change(const Body& body) const;
   void set_which(const Body& body);
@@ -101,8 +103,8 @@ class Fracture : public BondBreaking {
   std::vector<Affected> affected_;
 };
 
-// The fracture of a body, if its bonds may break.
-std::optional<Fracture> fracture_of(Body& body);
+// The fracture of a body from this time on, s, if its bonds may break.
+std::optional<Fracture> fracture_of(Body& body, double time = 0);
 
 // Number of bonds of this rank's points that have broken so far; both ends count.
 std::int64_t broken_bonds(const Body& body);

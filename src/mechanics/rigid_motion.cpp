@@ -54,6 +54,17 @@ bool is_in_place(const Body& body, const MaterialBlock& block) {
   });
 }
 
+// Metal that was put back where it came from has residual stress. An ordinary solid, without memory, has none.
+bool has_stress(const Body& body, const MaterialBlock& block) {
+  if (block.is_ordinary()) return false;
+  for (std::size_t k = 0; k < block.points.size(); ++k) {
+    for (int q = 0; q < block.points_per_cell(); ++q) {
+      if (body.integration_point(block, k, q).stress != Symmetric::Zero()) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 bool all_move_rigidly(const Body& body) {
@@ -69,7 +80,8 @@ void find_rigid_motion(Body& body) {
     return first;
   };
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (!is_in_place(body, body.blocks[b]) || expands(body, b)) moved[first_of(b)] = 1;
+    const MaterialBlock& block = body.blocks[b];
+    if (!is_in_place(body, block) || expands(body, b) || has_stress(body, block)) moved[first_of(b)] = 1;
   }
   body.domain.communicator.max(moved);
   for (std::size_t b = 0; b < blocks.size(); ++b) body.blocks[b].in_rigid_motion = moved[first_of(b)] == 0;

@@ -6,8 +6,8 @@
 
 namespace strut {
 
-// Collective. Marks the blocks of bodies (BlockBonds::body) whose points are all at their reference positions, and no
-// others. Solvers call it at their start; code that moves points by hand afterwards calls it again.
+// Collective. Marks the blocks of bodies (BlockBonds::body) whose points are all at their reference positions, without
+// stress, and no others. Solvers call it at their start; code that moves points by hand afterwards calls it again.
 void find_rigid_motion(Body& body);
 
 bool all_move_rigidly(const Body& body);

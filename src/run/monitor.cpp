@@ -263,7 +263,14 @@ void Monitor::serialize(Archive& archive) {
   archive.number("next_undeclared", next_undeclared_);
   archive.number("next_tools", next_tools_);
   archive.number("next_energy", next_energy_);
+  archive.number("failed_before", failed_before_);
   for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), told_[what]);
+}
+
+void Monitor::serialize_tools(Archive& archive, std::size_t tools) {
+  overlapped_.resize(tools * tools, 0);
+  for (std::size_t pair = 0; pair < overlapped_.size(); ++pair)
+    archive.number("overlapped_" + std::to_string(pair), overlapped_[pair]);
 }
 
 // All ranks know it, so the first one prints it.
@@ -343,11 +350,12 @@ void Monitor::check_failed(double time) {
   if (told_[failing]) return;
   const auto [own, point] = failed_points(body_);
   const double all = body_.domain.communicator.sum(static_cast<double>(own));
-  if (!(all > 0)) return;
+  if (failed_before_ < 0) failed_before_ = all;
+  if (!(all > failed_before_)) return;
   std::ostringstream text;
   if (own > 0) {
-    text << at(time) << all
-         << " points have failed (Failure Strain), each all at once in a load step: " << locate(body_, point)
+    text << at(time) << all - failed_before_ << " points have failed (Failure Strain), each all at once in a load step"
+         << (failed_before_ > 0 ? ", beside those that had before" : ": " + locate(body_, point))
          << ". The work of that is not counted, and what nothing else holds is in equilibrium anywhere; expected "
             "explicit "
             "steps (Solver > Verlet) where material parts";

@@ -38,6 +38,7 @@ class Monitor {
   void check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools);
 
   void serialize(Archive& archive);
+  void serialize_tools(Archive& archive, std::size_t tools);  // `tools`: how many the scene has
 
  private:
   enum What {
@@ -78,7 +79,8 @@ class Monitor {
   std::vector<std::uint8_t> overlapped_ = {};
   double first_step_ = 0;  // s, stable step at the start
   int ledgers_ = 0;
-  double told_error_ = 0;  // of the balance
+  double told_error_ = 0;      // of the balance
+  double failed_before_ = -1;  // points that had failed before the first load step; -1: not yet counted
   bool told_[count] = {};
 };
 

@@ -164,6 +164,8 @@ void Run::Parts::make_solver(StartState* state) {
   const auto make = [&](auto beginning) {
     steps.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), scene->control, beginning,
                   std::move(scene->fracture));
+    // Before it is restored: the impulses of substeps are then restored, too.
+    if (writers->history.has_reactions()) steps->gather_reactions(static_cast<int>(deck.conditions.size()));
   };
   if (state && state->goes_on()) {
     make(CentralDifference::ToBeRestored());
@@ -172,7 +174,6 @@ void Run::Parts::make_solver(StartState* state) {
     make(times.initial_time);
     if (state) say(communicator, state->overlaps(steps->contact(), scene->body));
   }
-  if (writers->history.has_reactions()) steps->gather_reactions(static_cast<int>(deck.conditions.size()));
 }
 
 void Run::Parts::open(Start start) {
@@ -180,6 +181,7 @@ void Run::Parts::open(Start start) {
   checkpoint.emplace(deck, communicator, [this](Archive& archive) {
     with_solver([&](auto& solver) { solver.serialize(archive); });
     monitor->serialize(archive);
+    monitor->serialize_tools(archive, scene->tools.size());
     balance.serialize(archive, scene->body);
     writers->serialize(archive, number_of_steps(), time());
   });

@@ -7,7 +7,6 @@
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
-#include "io/checkpoint/checkpoint_file.hpp"
 #include "mechanics/energies.hpp"
 #include "mechanics/serialize.hpp"
 #include "setup/conditions.hpp"
@@ -62,6 +61,13 @@ std::string other_stretch(const deck::Deck& deck, const std::vector<Period>& per
   return "";
 }
 
+// What forces change of a velocity in half a step, without the components that did not change in the step before: a
+// condition or a tool of the other run held these at one speed, against the same forces.
+Vector without_held(const Vector& change, const Vector& before) {
+  constexpr double none = 1e-6;  // a prescribed displacement gives a speed to round-off
+  return (before.array().abs() > none * change.array().abs()).select(change, 0);
+}
+
 }  // namespace
 
 std::optional<StartState> start_state_of(const deck::Deck& deck, const Communicator& communicator,
@@ -72,9 +78,9 @@ std::optional<StartState> start_state_of(const deck::Deck& deck, const Communica
 
 StartState::StartState(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems)
     : file_(deck.start_from->checkpoint), communicator_(communicator) {
-  io::CheckpointFacts facts;
   try {
-    facts = io::facts_of_checkpoint(file_, communicator);
+    facts_ = io::facts_of_checkpoint(file_, communicator);
+    file_ = facts_.file;
   } catch (const Error& error) {
     std::string why = error.what();
     run_on_root(communicator, [&] {
@@ -95,8 +101,8 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
           "'Initial Displacement' has no meaning beside Start From, whose points begin where the other run left "
           "them; expected another condition");
   }
-  time_ = facts.time;
-  changes_ = deck::start_changes(facts.deck, deck.text);
+  time_ = facts_.time;
+  changes_ = deck::start_changes(facts_.deck, deck.text);
   for (const std::string& one : changes_.refused)
     problems.add(one + "; expected the bodies of " + file_.string() + " (" + key + ")");
   spare_files(deck, problems);
@@ -105,26 +111,28 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
   const bool same_time = std::abs(now - time_) <= round_off * std::abs(time_);
   const bool with_velocities =
       changes_.after_equilibria || (keeps_velocities_ && (changes_.same_conditions || !has_initial_velocity(deck)));
-  goes_on_ = same_time && changes_.same_solver && changes_.same_contact && changes_.same_breaks && with_velocities &&
+  goes_on_ = same_time && changes_.same_solver && changes_.same_contact && with_velocities &&
              changes_.after_equilibria == deck.solver.quasi_static.has_value();
 }
 
 // A deck made from that of the other run names its files, too, which are in the folder of its checkpoint.
 void StartState::spare_files(const deck::Deck& deck, deck::Problems& problems) const {
-  for (const std::string& key_of_file : changes_.same_files) {
-    const std::filesystem::path& file = key_of_file.starts_with("Output") ? deck.output.file : deck.history.file;
+  const auto spare = [&](const std::string& key_of_file, const std::filesystem::path& mine) {
     std::string why;
     run_on_root(communicator_, [&] {
-      std::error_code ignored;
-      const std::filesystem::path beside = file_.parent_path() / file;
-      if (std::filesystem::equivalent(beside, file, ignored)) {
-        why = "'" + file.string() + "' is of the run that " + file_.string() +
+      for (const std::filesystem::path& file : changes_.files) {
+        std::error_code ignored;
+        if (!std::filesystem::equivalent(file_.parent_path() / file, mine, ignored)) continue;
+        why = "'" + mine.string() + "' is of the run that " + file_.string() +
               " comes from, and would be replaced; expected another name";
       }
     });
     communicator_.broadcast(why);
     if (!why.empty()) problems.add(key_of_file, why);
-  }
+  };
+  if (deck.output.enabled) spare("Output > Output Filename", deck.output.file);
+  if (deck.history.has_file()) spare("History > Filename", deck.history.file);
+  if (deck.restart.enabled) spare("Restart > Filename", deck.restart.file);
 }
 
 std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
@@ -141,8 +149,8 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   Snapshot snapshot;
   pass(Archive::saving_to(snapshot), last_step);
   const auto all = [](const std::string&) { return true; };
-  const io::Parts parts = io::read_checkpoint_parts(file_, communicator_, all, snapshot);
-  check_missing(file_, parts.missing, communicator_);
+  const std::vector<std::string> missing = io::read_checkpoint_parts(facts_, communicator_, all, snapshot);
+  check_missing(file_, missing, communicator_);
   raise_together(communicator_, other_stretch(deck, body.domain.periods, snapshot));
   pass(Archive::loading_from(snapshot), last_step);
   if (!keeps_velocities_) {
@@ -151,18 +159,20 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
     // From the mid-step before the checkpoint to its time, with the loads there, which are known if this deck has them.
     const std::vector<Vector> inner = body.force_density;
     if (changes_.same_loads) add_forces(scene.conditions, time_, body);
-    for (int i = 0; i < body.owned(); ++i)
-      body.velocity[i] += 0.5 * last_step / body.density[i] * body.force_density[i];
+    for (int i = 0; i < body.owned(); ++i) {
+      const Vector change = 0.5 * last_step / body.density[i] * body.force_density[i];
+      body.velocity[i] += without_held(change, body.velocity[i] - body.previous_velocity[i]);
+    }
     body.force_density = inner;
   }
   if (!goes_on_) body.previous_velocity = *body.velocity;
   const auto knows_reaches = [&](int tool) {
     const std::string name = "all points > tool_" + std::to_string(tool) + "_reach";
-    return changes_.same_conditions && std::ranges::find(parts.missing, name) == parts.missing.end();
+    return changes_.same_conditions && std::ranges::find(missing, name) == missing.end();
   };
   begin_from_here(deck, {goes_on_, changes_.same_conditions}, knows_reaches, scene, communicator_);
   const bool jumps = keeps_velocities_ && !changes_.after_equilibria && !changes_.masses.empty();
-  return (parts.note.empty() ? "" : "WARNING: " + parts.note + "\n") +
+  return (facts_.note.empty() ? "" : "WARNING: " + facts_.note + "\n") +
          (jumps ? "WARNING: " + changes_.masses + ": momentum and kinetic energy are not those of the checkpoint\n"
                 : "") +
          story(deck, scene);
@@ -222,7 +232,7 @@ void StartState::take_steps(Solver& solver, void (Solver::*serialize)(Archive&))
   Archive asks = Archive::saving_to(snapshot);
   (solver.*serialize)(asks);
   const auto takes = [this](const std::string& name) { return takes_of_steps(name); };
-  check_missing(file_, io::read_checkpoint_parts(file_, communicator_, takes, snapshot).missing, communicator_);
+  check_missing(file_, io::read_checkpoint_parts(facts_, communicator_, takes, snapshot), communicator_);
   Archive restores = Archive::loading_from(snapshot);
   (solver.*serialize)(restores);
 }

@@ -6,6 +6,7 @@
 
 #include "deck/changes.hpp"
 #include "deck/deck.hpp"
+#include "io/checkpoint/checkpoint_file.hpp"
 #include "setup/scene.hpp"
 
 namespace strut {
@@ -38,6 +39,7 @@ class StartState {
   std::string story(const deck::Deck& deck, const Scene& scene) const;
 
   std::filesystem::path file_;
+  io::CheckpointFacts facts_;  // all that is read is of this file, also where its run goes on and replaces it
   Communicator communicator_;
   deck::StartChanges changes_;
   double time_ = 0;  // s, of the checkpoint

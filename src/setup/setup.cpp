@@ -66,7 +66,7 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weigh
               found.warnings};
   if (may_have_expanded(deck)) scene.body.expansion.use(scene.body.owned());
   scene.warnings += open_sides(deck, scene.body.domain);
-  scene.fracture = fracture_of(scene.body);
+  scene.fracture = fracture_of(scene.body, deck.solver.initial_time);
   add_conditions(deck, deck.solver.initial_time, scene, communicator);
   return scene;
 }

@@ -27,27 +27,26 @@ void write_checkpoint(const std::filesystem::path& file, const Communicator& com
 // are missing or damaged, of another version, of other points, or lack something that the snapshot has.
 std::string read_checkpoint(const std::filesystem::path& file, const Communicator& communicator, Snapshot& snapshot);
 
-// Fills what the file of a run of another deck has of the numbers, shares and columns whose names `takes` accepts, as
-// above; the others keep their values. `missing`: those that it should take and the file does not have, on all ranks,
-// columns with their group. Throws Error as above, also if the points of a group are others.
-struct Parts {
-  std::string note;  // on rank 0
-  std::vector<std::string> missing;
-};
-using Takes = std::function<bool(const std::string& name)>;
-Parts read_checkpoint_parts(const std::filesystem::path& file, const Communicator& communicator, const Takes& takes,
-                            Snapshot& snapshot);
-
 // On this rank's disk: true if the file, or the previous one, exists.
 bool checkpoint_is_there(const std::filesystem::path& file);
 
-// Data besides the snapshot: the text of the deck, and the time, s. Throws Error on all ranks like
-// read_checkpoint.
+// Data besides the snapshot: the file that is read, the newest or, if that is damaged, the previous one, whose reason
+// is the note, on rank 0; the text of the deck, and the time, s. All of the file is checked. Throws Error on all ranks
+// like read_checkpoint.
 struct CheckpointFacts {
-  std::string deck;
+  std::filesystem::path file;
+  std::string note, deck;
   double time = 0;
 };
 CheckpointFacts facts_of_checkpoint(const std::filesystem::path& file, const Communicator& communicator);
+
+// Fills what that file, of a run of another deck, has of the numbers, shares and columns whose names `takes` accepts,
+// as above; the others keep their values. Returns those that it should take and the file does not have, on all ranks,
+// columns with their group. Throws Error on all ranks if the file is not the one of these facts any more, if it is
+// damaged, or if the points of a group are others.
+using Takes = std::function<bool(const std::string& name)>;
+std::vector<std::string> read_checkpoint_parts(const CheckpointFacts& facts, const Communicator& communicator,
+                                               const Takes& takes, Snapshot& snapshot);
 
 // Removes the file and the previous one on rank 0's disk. Throws Error if the file is not a checkpoint of ours.
 void remove_checkpoint(const std::filesystem::path& file, const Communicator& communicator);

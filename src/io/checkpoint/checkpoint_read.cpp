@@ -257,6 +257,13 @@ class PartsOfFile {
     return true;
   }
 
+  // Throws Error if any list is damaged.
+  void check_all() const {
+    std::set<std::string> ids;
+    for (std::size_t g = 0; g < groups_.size(); ++g) ids.insert(name_of_ids(g));
+    for (const std::string& list : lists_) ids.contains(list) ? has<std::int64_t>(list) : has<double>(list);
+  }
+
   // Adds what the snapshot asks for and the file does not have; returns the numbers of its groups in the file.
   std::vector<int> compare(const Snapshot& snapshot, const std::vector<std::int64_t>& counts, const Takes& takes,
                            std::vector<std::string>& missing) const {
@@ -301,27 +308,26 @@ class PartsOfFile {
 
 }  // namespace
 
-Parts read_checkpoint_parts(const fs::path& newest, const Communicator& communicator, const Takes& takes,
-                            Snapshot& snapshot) {
+std::vector<std::string> read_checkpoint_parts(const CheckpointFacts& facts, const Communicator& communicator,
+                                               const Takes& takes, Snapshot& snapshot) {
   std::vector<std::int64_t> counts;
   for (const Snapshot::Group& group : snapshot.groups) counts.push_back(communicator.sum(std::ssize(group.ids)));
   std::optional<NetcdfLists> file;
-  fs::path path = newest;
-  Parts parts;
+  std::vector<std::string> names;
   std::vector<int> groups;  // their numbers in the file
-  const auto open = [&] {
-    NetcdfLists found = opened(path);
-    parts.missing.clear();
-    groups = PartsOfFile(path, found).compare(snapshot, counts, takes, parts.missing);
-    file.emplace(std::move(found));
-  };
-  run_on_root(communicator, [&] { open_either(newest, path, open, parts.note); });
+  run_on_root(communicator, [&] {
+    file.emplace(opened(facts.file));
+    if (file->number(name_of_number("time")) != facts.time) {
+      throw Error(facts.file.string() + ": its run has replaced it meanwhile; expected a run that has ended");
+    }
+    groups = PartsOfFile(facts.file, *file).compare(snapshot, counts, takes, names);
+  });
   communicator.broadcast(groups);
-  parts.missing = broadcast_names(std::move(parts.missing), communicator);
-  const std::set<std::string> missing(parts.missing.begin(), parts.missing.end());
+  names = broadcast_names(std::move(names), communicator);
+  const std::set<std::string> missing(names.begin(), names.end());
   const auto is_there = [&](const std::string& name) { return takes(name) && !missing.contains(name); };
-  fill(communicator, path, file, groups, is_there, snapshot);
-  return parts;
+  fill(communicator, facts.file, file, groups, is_there, snapshot);
+  return names;
 }
 
 bool checkpoint_is_there(const fs::path& path) {
@@ -330,18 +336,20 @@ bool checkpoint_is_there(const fs::path& path) {
 }
 
 CheckpointFacts facts_of_checkpoint(const fs::path& path, const Communicator& communicator) {
-  CheckpointFacts facts;
+  CheckpointFacts facts{.file = path};
   run_on_root(communicator, [&] {
-    fs::path either = path;
-    std::string unused;
     const auto read = [&] {
-      const NetcdfLists file = opened(either);
-      facts = {file.text("deck"), file.number(name_of_number("time"))};
+      const NetcdfLists file = opened(facts.file);
+      PartsOfFile(facts.file, file).check_all();
+      facts.deck = file.text("deck"), facts.time = file.number(name_of_number("time"));
       if (file.number(name_of_deck_sum) == sum_of_deck(facts.deck)) return;
-      throw Error(either.string() + ": is damaged: the check sum of its deck is not that of its contents");
+      throw Error(facts.file.string() + ": is damaged: the check sum of its deck is not that of its contents");
     };
-    open_either(path, either, read, unused);
+    open_either(path, facts.file, read, facts.note);
   });
+  std::string file = facts.file.string();
+  communicator.broadcast(file);
+  facts.file = file;
   communicator.broadcast(facts.deck);
   facts.time = communicator.max(communicator.rank() == 0 ? facts.time : -std::numeric_limits<double>::infinity());
   return facts;

@@ -219,6 +219,19 @@ class Starts(InFolder):
         os.remove("first.restart")
         self.assertGoesOn(whole, strut.run(second, continued=True))
 
+    def test_tools_that_meet_after_a_run_goes_on_are_told(self):
+        """Looked at in every second step: apart in step 100, in a checkpoint of step 101, and meeting before step 102."""
+        box = lambda x, **more: {"Type": "Rigid Box", "Lower Corner": [x, 0, 0], "Upper Corner": [x + 1e-3, 1e-3, 1e-3], **more}
+        step, speed = 3e-9, 1500
+        tools = {"left": box(0.05), "right": box(0.051 + 101.5 * step * speed, **{"Mass": 1e-3, "Speed X": -speed})}
+        deck = block.deck(History={"Frequency": 50}, Restart={"Filename": "first.restart"})
+        deck = but(deck, Boundary_Conditions={**deck["Boundary Conditions"], **tools}, Solver={"Final Time": 1e-6, "Verlet": {"Fixed dt": step}})
+        run = strut.Run(deck, block.mesh())
+        run.advance(steps=99)  # it ends two steps later
+        run.end()
+        self.assertNotIn("'right' pass", run.log)
+        self.assertIn("'right' pass through each other", strut.run(deck, block.mesh(), continued=True).log)
+
     def two_stiffnesses(self):
         """A free bar that vibrates, one end of which is so stiff that its points are subcycled."""
         places = [(x, y, z) for x in range(10) for y in range(4) for z in range(4)]
@@ -236,6 +249,18 @@ class Starts(InFolder):
             "History": {"Frequency": 1, "Variables": {"Max_Displacement": True}},
             "Restart": {"Filename": "first.restart"},
             "Output": {"Output Filename": "bar.e", "Output Frequency": 1, "Output Variables": {"Time_Step_Level": True}}})
+
+    def test_the_first_instant_reaction_has_the_impulses_of_substeps(self):
+        foot = {"Type": "Prescribed Displacement", "Node Set": "end", "Coordinate": "xyz", "Value": "0"}
+        deck = self.two_stiffnesses()
+        deck = but(deck, Boundary_Conditions={**deck["Boundary Conditions"], "foot": foot}, Node_Sets={"end": "x > 9e-3"},
+                   History={"Frequency": 1, "Variables": {"Instant_Reaction_X(foot)": True}}, Output=None, Restart=None)
+        whole = strut.run(deck)
+        first = ended(deck, 20)
+        run = strut.run(start(deck, "first.restart", first.time))
+        force = lambda run: run.history["Instant_Reaction_X(foot)"][run.history["Time"] == first.time][0]
+        self.assertNotEqual(force(whole), 0)
+        self.assertEqual(force(run), force(whole))
 
     def test_a_strained_body_starts_with_substeps(self):
         """Its momentum and its energy stay those of the checkpoint: nothing acts on it."""
@@ -277,6 +302,31 @@ class Starts(InFolder):
             if field in whole.fields:
                 one, other = whole.whole(field), run.whole(field)
                 self.assertLessEqual(np.abs(one - other).max(), 1e-9 * np.abs(one).max(), field)  # round-off of some steps
+
+    def test_points_that_were_held_start_at_their_speed(self):
+        """The forces against which they were held do not move them in the half step to the time of the checkpoint."""
+        columns = {"block_zmax": -20, "block_zmin": 0}
+        deck = but(block.deck(), History={"Frequency": 1, "Variables": {f"Mean_Velocity_Z({name})": True for name in columns}})
+        ended(deck, 20, block.mesh())
+        run = strut.run(start(deck, "first.restart", Boundary_Conditions={}), block.mesh())
+        for name, speed in columns.items():
+            self.assertAlmostEqual(run.history[f"Mean_Velocity_Z({name})"][0], speed, delta=1e-9)  # round-off
+
+    def test_metal_that_was_put_back_is_let_go(self):
+        """Where it was at first, but with residual stress: it is not taken for a body at rest."""
+        way = {"sides": ("xy", "0"), "way": ("z", "2e-2*z*(t < 1 ? t : 2 - t)")}
+        held = {name: {"Type": "Prescribed Displacement", "Node Set": "all", "Coordinate": axes, "Value": value}
+                for name, (axes, value) in way.items()}
+        for formulation in ("Correspondence", "Quadratic Correspondence"):
+            with self.subTest(formulation):
+                metal = {**block.deck()["Materials"]["metal"], "Formulation": formulation}
+                deck = but(block.deck(Materials={"metal": metal}), History={"Frequency": 1})
+                slow = {"Final Time": 2.0, "QuasiStatic": {"Number of Load Steps": 2}}
+                first = strut.run(but(deck, Boundary_Conditions=held, Solver=slow, Restart={"Filename": "first.restart"}), block.mesh())
+                self.assertEqual(np.abs(first.whole("Displacement")).max(), 0)
+                run = strut.run(start(deck, "first.restart", Boundary_Conditions={}, Solver={"Final Time": 1e-6}), block.mesh())
+                # A wave of the whole stress takes a half of the elastic energy that it passes; here it passes a part.
+                self.assertGreater(run.history["Kinetic_Energy"].max(), 0.1 * first.history["Elastic_Energy"][-1])
 
     def test_equilibria_and_then_steps_are_those_of_two_solvers(self):
         """Of tools and of surfaces that rub, and with velocities kept: the same to round-off, as contact is searched anew."""
@@ -349,6 +399,52 @@ class Starts(InFolder):
             else:
                 strut.Run(again, block.mesh())
 
+    def test_a_damage_model_that_is_added_makes_springs_as_stiff_as_in_a_run_of_its_own(self):
+        """0.3 instead of 0.01 of the default coefficient, at the same displacements."""
+        deck = but(block.deck(), History={"Frequency": 1})
+        first = ended(deck, 12, block.mesh())
+        second = start(deck, "first.restart", first.time, Damage_Models={"breaks": {"Damage Model": "Critical Stretch", "Critical Stretch": 0.5}},
+                       Blocks={"block": {**deck["Blocks"]["block"], "Damage Model": "breaks"}})
+        run = strut.run(second, block.mesh())
+        self.assertAlmostEqual(run.history["Stabilization_Energy"][0] / first.history["Stabilization_Energy"][-1], 30, delta=1e-9)
+
+    def test_a_critical_stretch_is_that_of_the_initial_time(self):
+        breaks = {"Damage Model": "Time Dependent Critical Stretch", "Time Dependent Critical Stretch": "10*t"}
+        deck = but(block.deck(), Damage_Models={"breaks": breaks}, Blocks={"block": {**block.deck()["Blocks"]["block"], "Damage Model": "breaks"}})
+        strut.Run(but(deck, Solver={"Initial Time": 1e-3, "Final Time": 1.001e-3}), block.mesh())
+        with self.assertRaisesRegex(strut.Error, "is 0 at t = 0 s"):
+            strut.Run(deck, block.mesh())
+
+    def test_points_that_failed_in_steps_are_not_told_as_of_a_load_step(self):
+        foam = {"Material Model": "Metal Foam Correspondence", "Density": 150.0, "Young's Modulus": 300e6, "Poisson's Ratio": 0.0,
+                "Plastic Poisson's Ratio": 0.0, "Plateau Stress": 1e6, "Linear Hardening": 0.0, "Locking Stress": 2e6,
+                "Locking Exponent": 8.0, "Densification Strain": 1.0, "Failure Strain": 0.005}
+        deck = block.deck(Materials={"metal": foam}, History={"Frequency": 1})
+        conditions = deck["Boundary Conditions"]
+        deck = but(deck, Boundary_Conditions={**conditions, "top": {**conditions["top"], "Value": "100"}}, Solver={"Final Time": 6e-6})
+        first = strut.run(but(deck, Restart={"Filename": "first.restart"}), block.mesh())
+        self.assertGreater(first.whole("Failed").max(), 0)
+        rest = {"all": {"Type": "Prescribed Velocity", "Node Set": "all", "Coordinate": "xyz", "Value": "0"}}
+        slow = {"Final Time": 1.0, "QuasiStatic": {"Number of Load Steps": 1}}
+        self.assertNotIn("have failed", strut.run(start(deck, "first.restart", Boundary_Conditions=rest, Solver=slow), block.mesh()).log)
+
+    def test_a_damaged_checkpoint_gives_way_to_the_one_before_as_a_whole(self):
+        deck = but(block.deck(), History={"Frequency": 1})
+        whole = strut.run(deck, block.mesh())
+        kept = but(deck, Restart={"Filename": "first.restart", "Frequency": 10})
+        run = strut.Run(kept, block.mesh())
+        run.advance(steps=20)
+        run.end()
+        file = pathlib.Path("first.restart")
+        damaged = bytearray(file.read_bytes())
+        damaged[len(damaged) // 2] ^= 1
+        file.write_bytes(damaged)
+        before = whole.history["Time"][20]
+        run = strut.run(start(deck, "first.restart", before), block.mesh())
+        for told in ("going on from the one before, first.restart.old", "starts from first.restart.old", "goes on with its steps"):
+            self.assertIn(told, run.log)
+        self.assertGoesOn(whole, run)
+
     def test_a_tool_meets_the_body_where_it_is(self):
         """The uppermost points, half a spacing below the top, have gone down by 0.8 mm. A warning is of a tool that they are in."""
         def between(way):
@@ -371,6 +467,8 @@ class Starts(InFolder):
     def test_what_cannot_start_is_refused_by_name(self):
         deck = block.deck(Output=block.output("first.e"))
         ended(deck, 5, block.mesh())
+        os.mkdir("kept")
+        ended(but(deck, Output=block.output("kept.e")), 5, block.mesh(), "kept/first.restart")
         metal, foam = deck["Materials"]["metal"], deck["Blocks"]["block"]
         other = strut.voxels(np.ones((4, 5, 8), bool), SPACING, name="block")
         plane = {"Type": "Symmetry Plane", "Node Set": "block_xmax", "Point": [4 * SPACING, 0, 0], "Normal": [-1, 0, 0]}
@@ -385,6 +483,8 @@ class Starts(InFolder):
             ({"Boundary Conditions": {**conditions, "side": plane}}, block.mesh(), "Boundary Conditions > side: not there"),
             ({"Boundary Conditions": {**conditions, "top": top}}, block.mesh(), "Boundary Conditions > top > Value"),
             ({"Output": block.output("first.e")}, block.mesh(), "Output > Output Filename: 'first.e' is of the run that first.restart comes"),
+            ({"Output": block.output("./first")}, block.mesh(), "Output > Output Filename: './first.e' is of the run"),
+            ({"Output": block.output("kept.e"), "Start From": {"Checkpoint": "kept/first.restart"}}, block.mesh(), "'kept.e' is of the run"),
             ({"Start From": {"Checkpoint": "first.e"}}, block.mesh(), "first.e is a result"),
             ({"Start From": {"Checkpoint": "none"}}, block.mesh(), "Start From > Checkpoint: none: there is no such file"),
             ({"Start From": {}}, block.mesh(), "Start From > Checkpoint: missing"),

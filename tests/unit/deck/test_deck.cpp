@@ -705,6 +705,19 @@ TEST(Changes, AWholeSectionIsNamedOnce) {
             std::vector<std::string>{"Boundary Conditions > pull: a section before, nothing now"});
 }
 
+// A run names what it keeps of conditions by their numbers.
+TEST(Changes, OfTheOrderOfConditionsAreRefused) {
+  const std::string section = "<ParameterList name=\"Boundary Conditions\">";
+  const std::size_t begin = full_deck.find("<ParameterList name=\"wall\">");
+  const std::string wall = full_deck.substr(begin, full_deck.find("</ParameterList>", begin) + 16 - begin);
+  const std::string other = changed(changed(full_deck, wall, ""), section, section + wall);
+  EXPECT_EQ(changes(full_deck, other).refused,
+            std::vector<std::string>{
+                "Boundary Conditions, in their order: flight, pull, wall before, wall, flight, pull now"});
+  EXPECT_TRUE(start_changes(full_deck, full_deck).same_conditions);
+  EXPECT_FALSE(start_changes(full_deck, other).same_conditions);
+}
+
 // Steps may change, masses may not.
 TEST(Changes, OfMassesWithinASectionOfStepsAreRefused) {
   const std::size_t begin = full_deck.find("<ParameterList name=\"Verlet\">");
