@@ -298,30 +298,25 @@ void Monitor::check_energy(const Ledger& ledger, bool last) {
     if (!told_[imbalance]) told_error_ = error;
     warn(imbalance, text);
   }
-  if (ledger.kinetic < -worth_telling * ledger.largest) {
-    std::ostringstream negative;
-    negative << at(ledger.time) << "the kinetic energy is negative, " << ledger.kinetic
-             << " J: velocities turn round from one step to the next. Likely causes: noise whose periods are of a few "
-                "steps, or a load too sudden; a smaller Safety Factor follows it";
-    warn(turning, negative.str());
-  }
-  if (ledger.elastic < -worth_telling * ledger.largest) {
-    std::ostringstream negative;
-    negative
-        << at(ledger.time) << "Elastic_Energy is negative, " << ledger.elastic
-        << " J: a law gave back more energy than it stored. Likely causes: steps in which metal heats so much that "
-           "its Shear Modulus Slope takes much of its modulus (more load steps; is Specific Heat in J/(kg K)?), "
-           "elastic strains far beyond those of a rate form";
-    warn(unstored, negative.str());
-  }
-  if (ledger.fracture < -worth_telling * ledger.largest) {
-    std::ostringstream given;
-    given
-        << at(ledger.time) << "Fracture_Energy is negative, " << ledger.fracture
-        << " J: bonds that broke gave energy. Likely causes: a Fixed dt above the critical time step, breaks in steps "
-           "that are too long for them; a smaller Safety Factor or Fixed dt";
-    warn(breaking, given.str());
-  }
+  tell_if_negative(turning, "the kinetic energy", ledger.kinetic, ledger,
+                   "velocities turn round from one step to the next. Likely causes: noise whose periods are of a few "
+                   "steps, or a load too sudden; a smaller Safety Factor follows it");
+  tell_if_negative(
+      unstored, "Elastic_Energy", ledger.elastic, ledger,
+      "a law gave back more energy than it stored. Likely causes: steps in which metal heats so much that "
+      "its Shear Modulus Slope takes much of its modulus (more load steps; is Specific Heat in J/(kg K)?), "
+      "elastic strains far beyond those of a rate form");
+  tell_if_negative(
+      breaking, "Fracture_Energy", ledger.fracture, ledger,
+      "bonds that broke gave energy. Likely causes: a Fixed dt above the critical time step, breaks in steps "
+      "that are too long for them; a smaller Safety Factor or Fixed dt");
+}
+
+void Monitor::tell_if_negative(What what, const char* name, double energy, const Ledger& ledger, const char* causes) {
+  if (!(energy < -worth_telling * ledger.largest)) return;
+  std::ostringstream text;
+  text << at(ledger.time) << name << " is negative, " << energy << " J: " << causes;
+  warn(what, text.str());
 }
 
 namespace {
