@@ -521,7 +521,7 @@ TEST(Fracture, KeepsTheBalanceWithRandomDamage) {
       spec.cells = {5, 5, 6};
       Tensor rates;
       for (int c = 0; c < 9; ++c) rates(c) = 10 * number(random);
-      const double thrown = 10 * part(random);  // m/s; bonds break at some 3
+      const double thrown = 10 * (n + part(random)) / patterns;  // m/s; bonds break at some 3
       std::vector<Vector> noise(5 * 5 * 6);
       for (Vector& v : noise) v = thrown * Vector(number(random), number(random), number(random));
       const Outcome outcome = tear(spec, 3, rates, noise);
