@@ -310,6 +310,7 @@ TEST(DialectOfPeridigm, DisplacedBodiesAreHeldWhereTheyBegin) {
                                       {plane("half", "Symmetry Plane", "foot", "0 0 0", "1 0 0"), 0.0}}) {
     const RunFolder folder(Lattice{.nx = 3, .ny = 3, .nz = 8});
     Parts parts;
+    parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
     parts.conditions = all + held;
     Simulation run(folder, parts);
     for (int i = 0; i < run.body().owned(); ++i) {

@@ -519,11 +519,11 @@ TEST(Fracture, KeepsTheBalanceWithRandomDamage) {
     for (int n = 0; n < patterns; ++n) {
       LatticeSpec spec = block_of(kind, 5e-4);
       spec.cells = {5, 5, 6};
+      const double strength = 10 * (n + part(random)) / patterns;  // m/s; bonds break at some 3
       Tensor rates;
-      for (int c = 0; c < 9; ++c) rates(c) = 10 * number(random);
-      const double thrown = 10 * (n + part(random)) / patterns;  // m/s; bonds break at some 3
+      for (int c = 0; c < 9; ++c) rates(c) = strength * number(random);
       std::vector<Vector> noise(5 * 5 * 6);
-      for (Vector& v : noise) v = thrown * Vector(number(random), number(random), number(random));
+      for (Vector& v : noise) v = strength * Vector(number(random), number(random), number(random));
       const Outcome outcome = tear(spec, 3, rates, noise);
       EXPECT_LT(outcome.momentum_drift, 1e-12) << "pattern " << n;
       EXPECT_LT(outcome.balance_error, 1e-3) << "pattern " << n;

@@ -55,7 +55,7 @@ Body body_of(const Case& c, FamilyKind families, const Communicator& world) {
   bonds.families = families;
   bonds.may_lose_bonds = c.cracked;
   std::vector<Crack> cracks;
-  if (c.cracked) cracks.emplace_back(DiskCrack{Vector(0.31, -0.195, 1.705), Vector(0.6, 0, 0.8), 4.3e-3});
+  if (c.cracked) cracks.emplace_back(DiskCrack{Vector(0.31, -0.195, 1.7051), Vector(0.6, 0, 0.8), 4.3e-3});
   const materials::Elastic soft = std::get<materials::Elastic>(elastic(1e9, 0.3));
   // Where both are asked for one block has the one, and one the other.
   const Stabilization mean = MeanGradientStabilization{c.mean};
