@@ -141,11 +141,11 @@ void Fracture::restore(Body& body) {
     const std::size_t breakable = body.may_break(b) ? block.points.size() : 0;
     for (std::size_t k = 0; k < breakable; ++k) {
       const int i = block.points[k];
+      const bool gone = body.has_lost_bonds(i);
       // Those of a run without a Damage Model, which has been added, were soft; a point that has failed has none.
       double& springs = body.points[i].stabilization;
-      const double left = whole_springs_[i] * (springs > 0 ? part_of_springs(body, block, static_cast<int>(k)) : 0);
-      springs = std::max(springs, left);
-      const bool gone = body.has_lost_bonds(i);
+      if (springs > 0 && !gone)
+        springs = std::max(springs, whole_springs_[i] * part_of_springs(body, block, static_cast<int>(k)));
       if (gone && block.lattice >= 0) body.domain.families.off_stencil[i] = 1;
       if (gone && body.released[i] == 0) refit(body, block, static_cast<int>(k), most_steepness_[i]);
       if (body.released[i] > 0) release(body, block, static_cast<int>(k));

@@ -68,6 +68,15 @@ Vector without_held(const Vector& change, const Vector& before) {
   return (before.array().abs() > none * change.array().abs()).select(change, 0);
 }
 
+void refuse_displacements(const deck::Deck& deck, deck::Problems& problems) {
+  for (const deck::Condition& one : deck.conditions) {
+    if (!std::holds_alternative<InitialDisplacement>(one.kind)) continue;
+    problems.add("Boundary Conditions > " + one.name + " > Type",
+                 "'Initial Displacement' has no meaning beside Start From, whose points begin where the other run left "
+                 "them; expected another condition, or all conditions of that run");
+  }
+}
+
 }  // namespace
 
 std::optional<StartState> start_state_of(const deck::Deck& deck, const Communicator& communicator,
@@ -94,15 +103,9 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
     problems.add(key, why);
     return;
   }
-  for (const deck::Condition& one : deck.conditions) {
-    if (std::holds_alternative<InitialDisplacement>(one.kind))
-      problems.add(
-          "Boundary Conditions > " + one.name + " > Type",
-          "'Initial Displacement' has no meaning beside Start From, whose points begin where the other run left "
-          "them; expected another condition");
-  }
   time_ = facts_.time;
   changes_ = deck::start_changes(facts_.deck, deck.text);
+  if (!changes_.same_conditions) refuse_displacements(deck, problems);
   for (const std::string& one : changes_.refused)
     problems.add(one + "; expected the bodies of " + file_.string() + " (" + key + ")");
   spare_files(deck, problems);

@@ -248,6 +248,9 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
   for (std::size_t c = 0; c < points.size(); ++c) {
     std::vector<Function> values = straining_values(deck.conditions[c]);
     const bool strains = !values.empty();
+    const auto* motion = std::get_if<PrescribedMotion>(&deck.conditions[c].kind);
+    const bool is_velocity = motion && motion->is_velocity;
+    const int seen = is_velocity ? looks_between / 2 : 0;  // a velocity is taken in the middle of each load step
     for (Function& way : ways_of(deck.conditions[c])) values.push_back(std::move(way));
     for (Function& load : sampled_values(deck.conditions[c])) values.push_back(std::move(load));
     for (const Function& value : values) {
@@ -257,14 +260,15 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
         if (strains) zero = of_time(start);
         for (int k = 0; k <= looks_between * load_steps; ++k) {
           const double t = start + duration * k / (looks_between * load_steps), size = std::abs(of_time(t) - zero);
-          if (k % looks_between == 0) at_load_steps = std::max(at_load_steps, size);
+          if (k % looks_between == seen) at_load_steps = std::max(at_load_steps, size);
           if (size > between) between = size, time = t;
         }
       });
       if (!(between > told * at_load_steps + round_off * std::abs(zero))) continue;
       text << "WARNING: " << value.path() << (strains ? ": changes by " : ": reaches ") << between << " at t = " << time
-           << " s, between two load steps, and no more than " << at_load_steps
-           << " at any of them: the equilibria do not see it; is it meant, with " << load_steps << " load steps?\n";
+           << " s, " << (is_velocity ? "" : "between two load steps, ") << "and no more than " << at_load_steps
+           << (is_velocity ? " in the middle of any load step" : " at any of them")
+           << ": the equilibria do not see it; is it meant, with " << load_steps << " load steps?\n";
     }
   }
   return text.str();

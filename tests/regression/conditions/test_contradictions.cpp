@@ -207,6 +207,10 @@ TEST(Values, BetweenLoadStepsAreTold) {
     const std::string warnings = said_of(block(displacement("a", "foot", "z", value)), Loading::slow).warnings;
     EXPECT_EQ(warnings.find("between two load steps"), std::string::npos) << value;
   }
+  for (const auto& [value, told] : {std::pair("1e-9/(2e-6 - t)", true), std::pair("5*t*(4e-6 - t)", false)}) {
+    const std::string warnings = said_of(block(velocity("a", "foot", "z", value)), Loading::slow).warnings;
+    EXPECT_EQ(warnings.find("in the middle of any load step") != std::string::npos, told) << value << warnings;
+  }
   // Temperatures and the distance of sides count from those at the start.
   const auto heat = [](const std::string& value) {
     return section("a", key("Type", "Prescribed Temperature") + key("Value", value));
