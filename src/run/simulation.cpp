@@ -139,6 +139,8 @@ void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Star
   if (!continued) state = start_state_of(deck, communicator, problems);
   scene = strut::set_up(deck, checked_mesh(deck, std::move(problems), communicator, in_memory.mesh), communicator);
   const std::string started = state ? state->restore(deck, *scene) : "";
+  if (continued && deck.start_from)
+    keep_expansion(io::facts_of_checkpoint(deck.restart.file, communicator).has_expanded, scene->body);
   // Advice is of the start, where these bodies are no longer, and were not as the mesh has them.
   const bool is_past = continued && deck.start_from;
   const Advice told = is_past ? Advice{"advice was given at the start\n", scene->warnings} : advice(deck, *scene);

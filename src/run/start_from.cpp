@@ -10,6 +10,7 @@
 #include "mechanics/energies.hpp"
 #include "mechanics/serialize.hpp"
 #include "setup/conditions.hpp"
+#include "setup/setup.hpp"
 
 namespace strut {
 
@@ -140,6 +141,7 @@ void StartState::spare_files(const deck::Deck& deck, deck::Problems& problems) c
 
 std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   Body& body = scene.body;
+  keep_expansion(facts_.has_expanded, body);
   const contact::Kinematics kinematics{body.domain, body.velocity, body.density};
   const auto pass = [&](Archive archive, double& last_step) {
     archive.number("dt", last_step);

@@ -35,13 +35,6 @@ StepControl control_of(const deck::Deck& deck) {
   return {solver.fixed_dt.value_or(0), solver.safety_factor, solver.subcycling, !deck.watch.stops_inverted};
 }
 
-// Points that were heated in the run that this one starts from stay as they are, whether anything heats them here or
-// not.
-bool may_have_expanded(const deck::Deck& deck) {
-  const auto expands = [](const deck::Material& one) { return one.thermal_expansion != 0; };
-  return deck.start_from && std::ranges::any_of(deck.materials, expands);
-}
-
 // Builds the scene from the partitioned cloud.
 Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weights, const Communicator& communicator) {
   Dropped dropped;
@@ -64,7 +57,6 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weigh
               dropped,
               {},
               found.warnings};
-  if (may_have_expanded(deck)) scene.body.expansion.use(scene.body.owned());
   scene.warnings += open_sides(deck, scene.body.domain);
   scene.fracture = fracture_of(scene.body, deck.solver.initial_time);
   add_conditions(deck, deck.solver.initial_time, scene, communicator);
@@ -79,9 +71,14 @@ void add_contact(const deck::Deck& deck, Scene& scene) {
 
 }  // namespace
 
+void keep_expansion(bool has_expanded, Body& body) {
+  if (has_expanded && body.expansion.empty()) body.expansion.use(body.owned());
+}
+
 MigrationState migration_state_of(const Scene& scene, PointCloud cloud) {
-  return {std::move(cloud), scene.weights, scene.dropped, scene.points,
-          scene.bonds,      scene.pieces,  scene.tools,   scene.highest_frequency};
+  const bool has_expanded = scene.body.domain.communicator.max(scene.body.expansion.empty() ? 0.0 : 1.0) > 0;
+  return {std::move(cloud), scene.weights, scene.dropped,           scene.points, scene.bonds,
+          scene.pieces,     scene.tools,   scene.highest_frequency, has_expanded};
 }
 
 Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicator& communicator) {
@@ -90,6 +87,7 @@ Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicat
   for (std::size_t t = 0; t < scene.tools.size(); ++t) *scene.tools[t].touched = *kept.tools[t].touched;
   scene.highest_frequency = kept.highest_frequency;
   scale_masses(scene.highest_frequency, scene.body);
+  keep_expansion(kept.has_expanded, scene.body);
   add_contact(deck, scene);
   return scene;
 }

@@ -30,8 +30,13 @@ struct MigrationState {
   std::int64_t points = 0, bonds = 0, pieces = 0;
   std::vector<ToolOfScene> tools;
   double highest_frequency = 0;
+  bool has_expanded = false;  // on any rank
 };
 
+// Points that were heated before this run's start are as large as then, whether anything heats them here or not.
+void keep_expansion(bool has_expanded, Body& body);
+
+// Collective.
 MigrationState migration_state_of(const Scene& scene, PointCloud cloud);
 
 // Collective. The same scene on another partition, at its initial time, without its messages.

@@ -37,6 +37,7 @@ struct CheckpointFacts {
   std::filesystem::path file;
   std::string note, deck;
   double time = 0;
+  bool has_expanded = false;  // it has thermal strains
 };
 CheckpointFacts facts_of_checkpoint(const std::filesystem::path& file, const Communicator& communicator);
 

@@ -340,7 +340,9 @@ CheckpointFacts facts_of_checkpoint(const fs::path& path, const Communicator& co
   run_on_root(communicator, [&] {
     const auto read = [&] {
       const NetcdfLists file = opened(facts.file);
-      PartsOfFile(facts.file, file).check_all();
+      const PartsOfFile parts(facts.file, file);
+      parts.check_all();
+      facts.has_expanded = parts.has<double>(name_of(std::max(0, parts.group("all points")), "thermal_strain"));
       facts.deck = file.text("deck"), facts.time = file.number(name_of_number("time"));
       if (file.number(name_of_deck_sum) == sum_of_deck(facts.deck)) return;
       throw Error(facts.file.string() + ": is damaged: the check sum of its deck is not that of its contents");
@@ -351,6 +353,7 @@ CheckpointFacts facts_of_checkpoint(const fs::path& path, const Communicator& co
   communicator.broadcast(file);
   facts.file = file;
   communicator.broadcast(facts.deck);
+  facts.has_expanded = communicator.max(facts.has_expanded ? 1.0 : 0.0) > 0;
   facts.time = communicator.max(communicator.rank() == 0 ? facts.time : -std::numeric_limits<double>::infinity());
   return facts;
 }
