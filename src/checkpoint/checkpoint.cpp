@@ -17,7 +17,7 @@ bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator)
   return communicator.max(there ? 1.0 : 0.0) > 0;
 }
 
-void check_changes(const deck::Deck& deck, const Communicator& communicator) {
+bool check_changes(const deck::Deck& deck, const Communicator& communicator) {
   const io::CheckpointFacts facts = io::facts_of_checkpoint(deck.restart.file, communicator);
   const deck::Changes changes = deck::changes(facts.deck, deck.text);
   deck::Problems problems;
@@ -35,10 +35,11 @@ void check_changes(const deck::Deck& deck, const Communicator& communicator) {
                                      ", which is of another deck (a run goes on with another final time, steps, output "
                                      "or load); 'strut " +
                                      deck.file.string() + "' begins anew"));
-  if (communicator.rank() != 0) return;
+  if (communicator.rank() != 0) return facts.has_expanded;
   const std::string since = deck.file.string() + " is not as it was when the checkpoint was written: ";
   for (const std::string& one : changes.accepted) std::cout << "note: " << since << one << "\n";
   for (const std::string& one : changes.loads) std::cout << "WARNING: " << since << one << ", from here on\n";
+  return facts.has_expanded;
 }
 
 Checkpoint::Checkpoint(const deck::Deck& deck, const Communicator& communicator, Serialize serialize)

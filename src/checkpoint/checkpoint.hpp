@@ -17,8 +17,9 @@ namespace strut {
 bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator);  // collective: a run has left one
 
 // Collective, if a checkpoint exists: prints how the deck differs from that of the checkpoint. Throws Error on all
-// ranks for changes with which a run cannot continue, each with its key, and for a final time that has passed.
-void check_changes(const deck::Deck& deck, const Communicator& communicator);
+// ranks for changes with which a run cannot continue, each with its key, and for a final time that has passed. Returns
+// true if the checkpoint has thermal strains.
+bool check_changes(const deck::Deck& deck, const Communicator& communicator);
 
 class Checkpoint {
  public:

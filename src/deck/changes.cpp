@@ -17,30 +17,25 @@ namespace {
 
 using Texts = std::map<std::string, std::string>;  // values by the paths of their keys
 
-Texts texts_of(const std::string& deck) {
-  Problems ignored;
+struct Keys {
   Texts texts;
+  std::vector<std::string> conditions;  // names in the deck's order, by which a run names what it keeps of them
+};
+
+Keys read_keys(const std::string& deck) {
+  Problems ignored;
+  Keys keys;
   if (auto list = parse_xml_or_yaml(deck, ignored)) {
     translate_peridigm(*list, {}, ignored);
-    check(*list, schema(), "", ignored).add_texts(texts);
+    if (const List* conditions = find_list(*list, "Boundary Conditions")) {
+      for (const List& one : conditions->lists) keys.conditions.push_back(one.name);
+    }
+    check(*list, schema(), "", ignored).add_texts(keys.texts);
   }
-  return texts;
+  return keys;
 }
 
 const std::string section_text = Values::section_text;
-
-// The names of the conditions, in the deck's order, by which a run names what it keeps of them.
-std::vector<std::string> conditions_of(const std::string& deck) {
-  Problems ignored;
-  std::vector<std::string> names;
-  if (auto list = parse_xml_or_yaml(deck, ignored)) {
-    translate_peridigm(*list, {}, ignored);
-    if (List* conditions = find_list(*list, "Boundary Conditions")) {
-      for (const List& one : conditions->lists) names.push_back(one.name);
-    }
-  }
-  return names;
-}
 
 std::string text_at(const Texts& texts, const std::string& path) {
   const auto found = texts.find(path);
@@ -193,7 +188,8 @@ std::vector<std::filesystem::path> files_of(const Texts& texts) {
 }  // namespace
 
 StartChanges start_changes(const std::string& other_deck, const std::string& deck) {
-  const Texts other = texts_of(other_deck), now = texts_of(deck);
+  const Keys other_keys = read_keys(other_deck), now_keys = read_keys(deck);
+  const Texts &other = other_keys.texts, &now = now_keys.texts;
   StartChanges changes{.after_equilibria = other.contains("Solver > QuasiStatic"),
                        .same_solver = true,
                        .same_contact = true,
@@ -222,13 +218,14 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     return all;
   };
   changes.same_loads = changes.same_loads && sets_of(other) == sets_of(now);
-  changes.same_conditions = changes.same_conditions && conditions_of(other_deck) == conditions_of(deck);
+  changes.same_conditions = changes.same_conditions && other_keys.conditions == now_keys.conditions;
   changes.files = files_of(other);
   return changes;
 }
 
 Changes changes(const std::string& before, const std::string& now) {
-  const Texts old_texts = texts_of(before), new_texts = texts_of(now);
+  const Keys old_keys = read_keys(before), new_keys = read_keys(now);
+  const Texts &old_texts = old_keys.texts, &new_texts = new_keys.texts;
   Changes changes;
   std::string whole;  // a section that only one of both has: of its keys only those that are refused are named
   for (const std::string& path : paths_of(old_texts, new_texts)) {
@@ -241,7 +238,7 @@ Changes changes(const std::string& before, const std::string& now) {
                                                                         : changes.refused;
     kind.push_back(path + ": " + both(was, "before", is, "now"));
   }
-  const std::vector<std::string> was = conditions_of(before), is = conditions_of(now);
+  const std::vector<std::string>&was = old_keys.conditions, &is = new_keys.conditions;
   if (was != is && std::ranges::is_permutation(was, is)) {
     changes.refused.push_back("Boundary Conditions, in their order: " + both(joined(was), "before", joined(is), "now"));
   }

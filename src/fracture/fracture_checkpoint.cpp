@@ -142,7 +142,8 @@ void Fracture::restore(Body& body) {
     for (std::size_t k = 0; k < breakable; ++k) {
       const int i = block.points[k];
       const bool gone = body.has_lost_bonds(i);
-      // Those of a run without a Damage Model, which has been added, were soft; a point that has failed has none.
+      // In a run without a Damage Model springs are softer. Where one has been added, whole points get the springs of
+      // this run; points that have failed have no springs.
       double& springs = body.points[i].stabilization;
       if (springs > 0 && !gone)
         springs = std::max(springs, whole_springs_[i] * part_of_springs(body, block, static_cast<int>(k)));

@@ -68,7 +68,7 @@ class Extreme {
   std::string unit() const { return number_.observable.unit; }
   // Number of points of this rank in its group.
   std::int64_t points(const PointCloud& cloud) const { return group_.points(cloud); }
-  // Those of them that have the variable.
+  // Number of these points whose block has the variable.
   std::int64_t points(const Body& body) const;
   double local(const Body& body) const;  // of this rank, negated for a minimum, so that ranks always take the maximum
   double value(double largest) const { return sign_ * largest; }

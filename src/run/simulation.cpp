@@ -63,16 +63,18 @@ void check_wall_time(const deck::Deck& deck, const Communicator& communicator, d
   }
 }
 
-// Checks, before the mesh is read, whether the run can resume from a checkpoint or start without it.
-void look_at_checkpoint(const deck::Deck& deck, Start start, const Communicator& communicator,
+// Checks, before the mesh is read, whether the run can resume from a checkpoint or start without it. Returns true if it
+// resumes from one with thermal strains.
+bool look_at_checkpoint(const deck::Deck& deck, Start start, const Communicator& communicator,
                         deck::Problems& problems) {
   const bool is_there = checkpoint_exists(deck, communicator);
   check_resumption(deck, is_there, start == Start::anew, problems);
   if (!is_there && start == Start::continued) check_wall_time(deck, communicator, problems);
-  if (!problems.empty()) return;
-  if (is_there && start == Start::continued) check_changes(deck, communicator);
+  if (!problems.empty()) return false;
+  if (is_there && start == Start::continued) return check_changes(deck, communicator);
   if (!is_there && (start == Start::continued || deck.restart.resumes))
     say(communicator, "there is no checkpoint " + deck.restart.file.string() + ": the run begins anew\n");
+  return false;
 }
 
 }  // namespace
@@ -133,14 +135,13 @@ struct Run::Parts {
 };
 
 void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Start start) {
-  look_at_checkpoint(deck, start, communicator, problems);
+  const bool has_expanded = look_at_checkpoint(deck, start, communicator, problems);
   const bool continued = start == Start::continued && checkpoint_exists(deck, communicator);
   std::optional<StartState> state;
   if (!continued) state = start_state_of(deck, communicator, problems);
   scene = strut::set_up(deck, checked_mesh(deck, std::move(problems), communicator, in_memory.mesh), communicator);
   const std::string started = state ? state->restore(deck, *scene) : "";
-  if (continued && deck.start_from)
-    keep_expansion(io::facts_of_checkpoint(deck.restart.file, communicator).has_expanded, scene->body);
+  keep_expansion(has_expanded, scene->body);
   // Advice is of the start, where these bodies are no longer, and were not as the mesh has them.
   const bool is_past = continued && deck.start_from;
   const Advice told = is_past ? Advice{"advice was given at the start\n", scene->warnings} : advice(deck, *scene);

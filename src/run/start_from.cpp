@@ -62,7 +62,7 @@ std::string other_stretch(const deck::Deck& deck, const std::vector<Period>& per
   return "";
 }
 
-// What forces change of a velocity in half a step, without the components that did not change in the step before: a
+// The change of a velocity by the forces of half a step, 0 in components that did not change in the step before: a
 // condition or a tool of the other run held these at one speed, against the same forces.
 Vector without_held(const Vector& change, const Vector& before) {
   constexpr double none = 1e-6;  // a prescribed displacement gives a speed to round-off
@@ -87,15 +87,14 @@ std::optional<StartState> start_state_of(const deck::Deck& deck, const Communica
 }
 
 StartState::StartState(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems)
-    : file_(deck.start_from->checkpoint), communicator_(communicator) {
+    : facts_{.file = deck.start_from->checkpoint}, communicator_(communicator) {
   try {
-    facts_ = io::facts_of_checkpoint(file_, communicator);
-    file_ = facts_.file;
+    facts_ = io::facts_of_checkpoint(facts_.file, communicator);
   } catch (const Error& error) {
     std::string why = error.what();
     run_on_root(communicator, [&] {
-      if (std::filesystem::exists(file_) && is_of_kind(file_, FileKind::result)) {
-        why = file_.string() +
+      if (std::filesystem::exists(facts_.file) && is_of_kind(facts_.file, FileKind::result)) {
+        why = facts_.file.string() +
               " is a result: its frames do not hold the state of the laws; expected the checkpoint of its last frame, "
               "which its run has kept (the deck's name with the suffix .restart)";
       }
@@ -104,15 +103,14 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
     problems.add(key, why);
     return;
   }
-  time_ = facts_.time;
   changes_ = deck::start_changes(facts_.deck, deck.text);
   if (!changes_.same_conditions) refuse_displacements(deck, problems);
   for (const std::string& one : changes_.refused)
-    problems.add(one + "; expected the bodies of " + file_.string() + " (" + key + ")");
+    problems.add(one + "; expected the bodies of " + facts_.file.string() + " (" + key + ")");
   spare_files(deck, problems);
   keeps_velocities_ = deck.start_from->keeps_velocities.value_or(!changes_.after_equilibria);
   const double now = deck.solver.initial_time;
-  const bool same_time = std::abs(now - time_) <= round_off * std::abs(time_);
+  const bool same_time = std::abs(now - facts_.time) <= round_off * std::abs(facts_.time);
   const bool with_velocities =
       changes_.after_equilibria || (keeps_velocities_ && (changes_.same_conditions || !has_initial_velocity(deck)));
   goes_on_ = same_time && changes_.same_solver && changes_.same_contact && with_velocities &&
@@ -126,8 +124,8 @@ void StartState::spare_files(const deck::Deck& deck, deck::Problems& problems) c
     run_on_root(communicator_, [&] {
       for (const std::filesystem::path& file : changes_.files) {
         std::error_code ignored;
-        if (!std::filesystem::equivalent(file_.parent_path() / file, mine, ignored)) continue;
-        why = "'" + mine.string() + "' is of the run that " + file_.string() +
+        if (!std::filesystem::equivalent(facts_.file.parent_path() / file, mine, ignored)) continue;
+        why = "'" + mine.string() + "' is of the run that " + facts_.file.string() +
               " comes from, and would be replaced; expected another name";
       }
     });
@@ -155,7 +153,7 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   pass(Archive::saving_to(snapshot), last_step);
   const auto all = [](const std::string&) { return true; };
   const std::vector<std::string> missing = io::read_checkpoint_parts(facts_, communicator_, all, snapshot);
-  check_missing(file_, missing, communicator_);
+  check_missing(facts_.file, missing, communicator_);
   raise_together(communicator_, other_stretch(deck, body.domain.periods, snapshot));
   pass(Archive::loading_from(snapshot), last_step);
   if (!keeps_velocities_) {
@@ -163,7 +161,7 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   } else if (!goes_on_ && !changes_.after_equilibria) {
     // From the mid-step before the checkpoint to its time, with the loads there, which are known if this deck has them.
     const std::vector<Vector> inner = body.force_density;
-    if (changes_.same_loads) add_forces(scene.conditions, time_, body);
+    if (changes_.same_loads) add_forces(scene.conditions, facts_.time, body);
     for (int i = 0; i < body.owned(); ++i) {
       const Vector change = 0.5 * last_step / body.density[i] * body.force_density[i];
       body.velocity[i] += without_held(change, body.velocity[i] - body.previous_velocity[i]);
@@ -187,8 +185,8 @@ std::string StartState::story(const deck::Deck& deck, const Scene& scene) const 
   const Energies stored = stored_energies(scene.body);
   std::ostringstream text, time;
   time.precision(17);  // to go on, Initial Time must be the same
-  time << time_;
-  text << "starts from " << file_.string() << ", t = " << time.str() << " s there, after "
+  time << facts_.time;
+  text << "starts from " << facts_.file.string() << ", t = " << time.str() << " s there, after "
        << (changes_.after_equilibria ? "equilibria" : "explicit steps") << ": "
        << (goes_on_                               ? "goes on with its steps"
            : deck.solver.quasi_static.has_value() ? "without velocities"
@@ -237,7 +235,7 @@ void StartState::take_steps(Solver& solver, void (Solver::*serialize)(Archive&))
   Archive asks = Archive::saving_to(snapshot);
   (solver.*serialize)(asks);
   const auto takes = [this](const std::string& name) { return takes_of_steps(name); };
-  check_missing(file_, io::read_checkpoint_parts(facts_, communicator_, takes, snapshot), communicator_);
+  check_missing(facts_.file, io::read_checkpoint_parts(facts_, communicator_, takes, snapshot), communicator_);
   Archive restores = Archive::loading_from(snapshot);
   (solver.*serialize)(restores);
 }

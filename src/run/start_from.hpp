@@ -38,11 +38,9 @@ class StartState {
   bool takes_of_steps(const std::string& name) const;
   std::string story(const deck::Deck& deck, const Scene& scene) const;
 
-  std::filesystem::path file_;
   io::CheckpointFacts facts_;  // all that is read is of this file, also where its run goes on and replaces it
   Communicator communicator_;
   deck::StartChanges changes_;
-  double time_ = 0;  // s, of the checkpoint
   bool keeps_velocities_ = false, goes_on_ = false;
 };
 

@@ -55,6 +55,13 @@ def expanding(temperature, **sections):
     return decks
 
 
+def run_on(ranks, *words):
+    """The program on this number of ranks. This process, a job of MPI by itself, has told its environment so."""
+    outside = {k: v for k, v in os.environ.items() if not k.startswith(("PMI", "OMPI_")) or "ALLOW" in k}
+    command = [*os.environ["STRUT_MPIRUN"].split(), "-n", str(ranks), os.environ["STRUT"], *words]
+    return subprocess.run(command, capture_output=True, text=True, env=outside, timeout=100)
+
+
 def ended(deck, steps, mesh=None, name="first.restart"):
     """A run that is ended early, with a checkpoint."""
     run = strut.Run(but(deck, Restart={"Filename": name}), mesh)
@@ -197,10 +204,7 @@ class Starts(InFolder):
                 second = start(deck, "first.restart", first.time, History=history)
                 second["Solver"]["Verlet"] = {**verlet, "Rebalance": 1.0001}
                 pathlib.Path("second.xml").write_text(second.to_xml())
-                # This process, a job of MPI by itself, has told its environment so.
-                outside = {k: v for k, v in os.environ.items() if not k.startswith(("PMI", "OMPI_")) or "ALLOW" in k}
-                told = subprocess.run([*os.environ["STRUT_MPIRUN"].split(), "-n", "2", os.environ["STRUT"], "second.xml"],
-                                      capture_output=True, text=True, env=outside)
+                told = run_on(2, "second.xml")
                 self.assertEqual(told.returncode, 0, told.stderr)
                 told = told.stdout
                 self.assertIn("goes on with its steps", told)

@@ -20,6 +20,10 @@ std::string deck_of(Parts parts) {
                  section("Solver", parts.times + first) + next);
 }
 
+std::string history_in(const RunFolder& folder) {
+  return key("Filename", (folder / "history.csv").string()) + section("Variables", "");
+}
+
 // Its history. `when`: its rows.
 Table history_of(Parts parts, const std::vector<std::string>& variables,
                  const std::string& when = key("Frequency", "1")) {
@@ -120,7 +124,7 @@ TEST(TwoSolvers, RunThatEndsInTheStepsIsNotOver) {
   Parts parts;
   parts.conditions = held;
   const RunFolder folder;
-  parts.history = key("Filename", (folder / "history.csv").string()) + section("Variables", "");
+  parts.history = history_in(folder);
   const std::string shorter = deck_of(parts), longer = changed(shorter, "1.000005", "1.00001");
   testing::internal::CaptureStdout();
   EXPECT_TRUE(run(folder.write("deck.xml", shorter), folder.world));
@@ -138,7 +142,7 @@ TEST(TwoSolvers, TimesMayBeNegative) {
   Parts parts;
   parts.conditions = held;
   const RunFolder folder;
-  parts.history = key("Filename", (folder / "history.csv").string()) + section("Variables", "");
+  parts.history = history_in(folder);
   const std::string early =
       changed(deck_of(parts), key("Final Time", "1"), key("Initial Time", "-2") + key("Final Time", "-1"));
   testing::internal::CaptureStdout();
@@ -189,7 +193,7 @@ TEST(TwoSolvers, AWallTimeLeavesNothingToGoOnFrom) {
   Parts parts;
   parts.conditions = held;
   const RunFolder folder;
-  parts.history = key("Filename", (folder / "history.csv").string()) + section("Variables", "");
+  parts.history = history_in(folder);
   const std::string text =
       changed(deck_of(parts), key("Final Time", "1"), key("Final Time", "1") + key("Wall Time", "1e-9"));
   const std::filesystem::path deck = folder.write("deck.xml", text);
