@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <csignal>
 #include <cstdlib>
@@ -57,7 +58,19 @@ void tell_fault(const char* what) {
 constexpr std::array signals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 std::array<struct sigaction, signals.size()> before;  // the handlers before watch()
 
+// Several threads may meet the fault at once, where points begin to flow: the first one tells of it and ends the
+// program, the others wait for that.
+std::atomic_flag is_ending;
+thread_local bool ends_it = false;
+
+void hold_all_but_first_thread() {
+  if (ends_it) return;
+  ends_it = !is_ending.test_and_set();
+  while (!ends_it) pause();
+}
+
 void on_crash(int signal) {
+  hold_all_but_first_thread();
   if (call.file) tell_fault(" of a User Library material crashed");
   for (std::size_t k = 0; k < signals.size(); ++k) {
     if (signals[k] == signal) sigaction(signal, &before[k], nullptr);
@@ -67,14 +80,22 @@ void on_crash(int signal) {
 
 // ---------------------------------------------------------------------------------------------------------------------
 
-// Fortran's STOP exits with status 0, which would hide that the run has failed.
+// Fortran's STOP exits with status 0, which would hide that the run has failed. The other exit handlers are left out:
+// glibc's list of them breaks where two threads exit at once, and a crash leaves them out too.
 void on_exit() {
   if (!call.file) return;
+  hold_all_but_first_thread();
   std::cout.flush();
   tell_fault(" of a User Library material ended the program (STOP, XIT, exit)");
-  call.file = nullptr;
-  std::exit(EXIT_FAILURE);  // glibc runs the remaining exit handlers and exits with this status
+  _exit(EXIT_FAILURE);
 }
+
+// glibc calls on_exit in one of the threads that exit at once. The others come here, last of all, and are held.
+struct LastAtExit {
+  ~LastAtExit() {
+    if (is_ending.test()) hold_all_but_first_thread();
+  }
+} last_at_exit;
 
 // Stack of this thread for signal handlers: a library may crash because it has used up the thread's own stack.
 struct SecondStack {

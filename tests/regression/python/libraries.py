@@ -132,6 +132,7 @@ class Libraries(InFolder):
                 with self.subTest(wrong, threads=threads):
                     said = self.fault_of(wrong, ["--threads", str(threads)])
                     self.assertIn(expected, said)
+                    self.assertEqual(said.count(f"strut: the library {LIBRARY} "), 1 if wrong in (1, 2, 6, 7, 8) else 0, said)
                     self.assertIn(LIBRARY, said)
                     place = re.search(r"reference position \(([-\d.e]+), ([-\d.e]+), ([-\d.e]+)\)", said)
                     self.assertIsNotNone(place, said)
