@@ -22,6 +22,7 @@ constexpr Check checks[] = {
     sudden_stretches,
     overlaps,
     flat_families,
+    unequal_horizons,
     contact_at_mirrors,
     filled_tools,
     thin_tools,
