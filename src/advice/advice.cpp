@@ -38,6 +38,7 @@ constexpr Check checks[] = {
     breaks_under_pressure,
     improbable_stretches,
     bonded_contacts,
+    surfaces_at_seams,
     undeclared_contacts,
     unheld_bodies,
     weak_contacts,

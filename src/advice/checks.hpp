@@ -113,6 +113,10 @@ std::string undeclared_contacts(const Situation& situation);
 // bonded points; for interactions of all blocks, only if all these bonds bridge a gap.
 std::string bonded_contacts(const Situation& situation);
 
+// A warning for every two bonded blocks that meet others by surfaces: each senses, and is sensed, as if it ended at the
+// other.
+std::string surfaces_at_seams(const Situation& situation);
+
 // A warning for each symmetry plane behind which a body with contact continues as its mirror image.
 std::string contact_at_mirrors(const Situation& situation);
 
