@@ -95,6 +95,9 @@ std::string thin_members(const Situation& situation);
 // The warnings of blocks with points whose families nearly lie in a plane.
 std::string flat_families(const Situation& situation);
 
+// The warnings of blocks with points that are bonded to others of other horizons.
+std::string unequal_horizons(const Situation& situation);
+
 // A warning for the blocks with points at nodes that touch by surfaces and are so narrow that the contact
 // is weak everywhere.
 std::string narrow_surfaces_of_nodes(const Situation& situation);
@@ -109,6 +112,10 @@ std::string undeclared_contacts(const Situation& situation);
 // A warning for every two blocks of an interaction that are bonded to each other, because contact ignores
 // bonded points; for interactions of all blocks, only if all these bonds bridge a gap.
 std::string bonded_contacts(const Situation& situation);
+
+// A warning for every two bonded blocks that meet others by surfaces: each senses, and is sensed, as if it ended at the
+// other.
+std::string surfaces_at_seams(const Situation& situation);
 
 // A warning for each symmetry plane behind which a body with contact continues as its mirror image.
 std::string contact_at_mirrors(const Situation& situation);

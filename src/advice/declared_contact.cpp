@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <set>
 #include <sstream>
+#include <utility>
+#include <variant>
 
 #include "advice/checks.hpp"
 #include "setup/blocks.hpp"
@@ -106,6 +110,35 @@ std::string bonded_contacts(const Situation& situation) {
            << " bonds, between whose ends contact never acts; expected, for bodies that meet, "
            << remedy(deck, names[a], names[b]) << "\n";
     }
+  }
+  return text.str();
+}
+
+// Two blocks that are bonded and meet a third, or one of themselves.
+std::string surfaces_at_seams(const Situation& situation) {
+  const Domain& domain = situation.scene.body.domain;
+  std::map<int, std::set<int>> met;  // blocks that a block meets by surfaces
+  for (const contact::Interaction& one : situation.interactions) {
+    if (!std::holds_alternative<contact::SurfaceLaw>(one.model.law)) continue;
+    met[one.first].insert(one.second), met[one.second].insert(one.first);
+  }
+  std::set<std::pair<int, int>> pairs;
+  for (const auto& [block, others] : met) {
+    for (const int a : others) {
+      for (const int b : others) {
+        if (a < b && domain.blocks[a].body == domain.blocks[b].body) pairs.insert({a, b});
+      }
+    }
+  }
+  if (pairs.empty()) return "";
+  const std::vector<int> blocks = blocks_of(domain);
+  std::ostringstream text;
+  for (const auto& [a, b] : pairs) {
+    if (bonds_between(domain, blocks, a, b).count == 0) continue;
+    text << "WARNING: blocks " << domain.cloud.block_names[a] << " and " << domain.cloud.block_names[b]
+         << " are bonded to each other, but each has a surface of its own, and contact by 'Surface' is softer along "
+            "their seam (half of the pressure, to two spacings from it); expected one block of the mesh where this "
+            "counts, or contact between points\n";
   }
   return text.str();
 }

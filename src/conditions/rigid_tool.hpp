@@ -18,6 +18,7 @@ namespace strut {
 
 struct Body;
 struct ImpulseWork;
+struct Mirror;
 
 // The motion of a rigid tool with a mass under the reactions of the points, by central differences as for the points.
 // The tool does not rotate. Its motion is the same on all ranks; impulses from points are those of each rank.
@@ -25,6 +26,7 @@ struct FreeMotion {
   double mass = 0;                   // kg
   Vector velocity = Vector::Zero();  // m/s, over the step that begins at `time`; at the start the initial velocity
   std::array<std::optional<Function>, 3> force = {};  // along x, y, z, of t only, N
+  Tensor ways = Tensor::Identity();                   // projects on the directions in which forces move it
 
   Vector before = Vector::Zero();  // m/s, over the step before
   Vector offset = Vector::Zero();  // m, displacement at `time`
@@ -40,6 +42,10 @@ struct FreeMotion {
   void advance(double t, double dt, const Body& body);
   // Reacts to the impulse (N s) given to the points of all ranks at `time`. Adds its work and that of the tool's force.
   void push_back(const Vector& impulse, const Body& body, ImpulseWork& work);
+
+  // Keeps it from moving across the planes of which it is its own image, behind which its other half and what that
+  // pushes are images: the forces on both halves cancel there. Not if a velocity or force of the deck is across them.
+  void keep_between(const std::vector<Mirror>& mirrors, const Shape& shape);
 
   double kinetic_energy() const {  // J, at `time`
     return 0.5 * mass * mid_steps.conserved_square(mid_steps.velocity(before, velocity), velocity);

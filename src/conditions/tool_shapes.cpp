@@ -57,6 +57,37 @@ Surface surface(const Box& box, const Vector& place) {
   return {distance, n, turning / distance};
 }
 
+namespace {
+
+constexpr double digits = 1e-5;  // of directions and positions in a deck
+
+bool is_own_image(const HalfSpace& half, const Vector&, const Vector& n) {
+  return std::abs(half.normal.dot(n)) < digits;
+}
+
+bool is_own_image(const Cylinder& cylinder, const Vector& on, const Vector& n) {
+  const double along = std::abs(cylinder.axis.dot(n));
+  const bool is_in_plane = along < digits && std::abs(n.dot(cylinder.point - on)) < digits * cylinder.radius;
+  return is_in_plane || along > 1 - digits * digits;
+}
+
+// Its corners are those of its image.
+bool is_own_image(const Box& box, const Vector& on, const Vector& n) {
+  const Vector middle = 0.5 * (box.lower + box.upper), half = 0.5 * (box.upper - box.lower);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector signs(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    const Vector place = middle + half.cwiseProduct(signs), image = place - 2 * n.dot(place - on) * n;
+    if (((image - middle).cwiseAbs() - half).norm() > digits * half.minCoeff()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool is_own_image(const Shape& shape, const Vector& on, const Vector& n) {
+  return std::visit([&](const auto& one) { return is_own_image(one, on, n); }, shape);
+}
+
 Surface surface(const Shape& shape, const Vector& place) {
   return std::visit([&](const auto& one) { return surface(one, place); }, shape);
 }

@@ -47,4 +47,7 @@ Surface surface(const Cylinder& cylinder, const Vector& place);
 Surface surface(const Box& box, const Vector& place);
 Surface surface(const Shape& shape, const Vector& place);
 
+// True if a shape is its own mirror image by the plane with the unit normal n through a point.
+bool is_own_image(const Shape& shape, const Vector& on, const Vector& n);
+
 }  // namespace strut

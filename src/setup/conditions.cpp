@@ -39,6 +39,18 @@ void check_values(const std::vector<Function>& values, const std::vector<int>& p
   }
 }
 
+// The mirrors of the bodies that a tool may meet.
+std::vector<Mirror> mirrors_of(const RigidTool& tool, const Domain& domain) {
+  int bodies = 0;
+  for (const BlockHorizons& block : domain.blocks) bodies = std::max(bodies, block.body + 1);
+  std::vector<double> meets(bodies, 0);
+  for (const int i : tool.points) meets[domain.body_of(i)] = 1;
+  domain.communicator.max(meets);
+  std::vector<Mirror> mirrors = domain.mirrors;
+  std::erase_if(mirrors, [&](const Mirror& one) { return meets[one.body] == 0; });
+  return mirrors;
+}
+
 // A tool that has held the body since the mesh was read, as in earlier equilibria, keeps its initial reaches.
 void set_reaches(RigidTool& tool, const Times& times, const Body& body) {
   if (!tool.free || times.mesh == times.begin) return tool.set_reaches(times.mesh, body, BodyAt::mesh);
@@ -50,7 +62,10 @@ void put(const Type& prototype, const std::string& name, std::vector<int> points
          Scene& scene) {
   Type condition = prototype.on(std::move(points), place, scene.body);
   if constexpr (std::is_same_v<Type, RigidTool>) {
-    if (condition.free) condition.free->time = times.begin;  // it rests until then
+    if (condition.free) {
+      condition.free->time = times.begin;  // it rests until then
+      condition.free->keep_between(mirrors_of(condition, scene.body.domain), condition.shape);
+    }
     set_reaches(condition, times, scene.body);
     scene.tools.push_back({name, condition.touched});
   }

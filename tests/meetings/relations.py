@@ -538,8 +538,6 @@ def half_of_it(case):
         if one["Type"] in TOOLS:
             if vector and vector.along[axis]:
                 continue
-            if "Mass" in one and ("Axis" in one or "Friction Coefficient" in one):
-                raise NotHere("what a half gives to a free tool has a part across the plane")
             if "Axis" in one:  # a cylinder's is in the plane
                 one["Point"] = Place(tuple(0.0 if i == axis else v for i, v in enumerate(one["Point"].at)))
                 if stands_in_the_body(one, scene):  # it stood beside the plane

@@ -1,4 +1,4 @@
-// Meshes that overlap: mass that counts twice is told of before the run.
+// Meshes that overlap: mass that counts twice is told of before the run. Seams, where surfaces of blocks end.
 #include <gtest/gtest.h>
 
 #include "regression/bodies.hpp"
@@ -33,6 +33,33 @@ TEST(Overlaps, OfBondedBlocksAreTold) {
     }
     EXPECT_EQ(warnings(5e-3, false, formulation).find("as much material"), std::string::npos);
   }
+}
+
+// A body of two blocks and a plate: what touches is at the seam of a surface, not of points or of a body of its own.
+TEST(Seams, OfSurfacesAreTold) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 6, 3, 1e-3) + cubes(2, {3e-3, 0, 0}, 3, 6, 3, 1e-3) +
+                                 cubes(3, {0, 0, 4e-3}, 6, 6, 3, 1e-3));
+  const auto tells = [&folder](const std::string& law, const std::string& apart) {
+    Parts parts = thrown_block(section("Models", section("m", law)) +
+                               section("Interactions", section("General Contact", key("Contact Model", "m"))));
+    const auto block = [](const std::string& name, const std::string& separate) {
+      return section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                               key("Separate Body", separate));
+    };
+    parts.blocks = block("block_1", "false") + block("block_2", apart) + block("block_3", "true");
+    const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+    return told_at_the_start(deck, folder.world)
+               .warnings.find(
+                   "blocks block_1 and block_2 are bonded to each other, but each has a surface of its own") !=
+           std::string::npos;
+  };
+  const std::string surface = key("Contact Model", "Surface");
+  const std::string penalty =
+      key("Contact Model", "Short Range Force") + key("Spring Constant", "1e12") + key("Contact Radius", "1e-3");
+  EXPECT_TRUE(tells(surface, "false"));
+  EXPECT_FALSE(tells(surface, "true"));
+  EXPECT_FALSE(tells(penalty, "false"));
 }
 
 // Small points have larger ones in their families, which lie outside of their own horizon.

@@ -455,6 +455,18 @@ TEST(PeriodicSides, TellOfASuddenStretch) {
   EXPECT_FALSE(told("1", "0"));
 }
 
+// A horizon by a factor has the round-off of a spacing.
+TEST(PeriodicContact, MayHaveThePeriodThatItsRefusalExpects) {
+  Parts parts;
+  parts.contact = contact_of({{"bar", "bar"}}, "1e-3", "1e12");
+  parts.conditions = sides("z", "0", "6e-3");
+  for (const auto& [horizon, refusal] : {std::pair{"2.0000000000001e-3", ""}, std::pair{"2.1e-3", "expected 0.0063"}}) {
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", horizon));
+    const std::string error = error_of(parts);
+    EXPECT_TRUE(*refusal ? error.find(refusal) != std::string::npos : error.empty()) << error;
+  }
+}
+
 TEST(PeriodicSides, ThatDoNotFitAreRefused) {
   Parts parts;
   const auto with = [&](const std::string& conditions) {

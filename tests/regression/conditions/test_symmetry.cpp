@@ -207,6 +207,24 @@ TEST(Symmetry, OfNonReflectingEnds) {
   EXPECT_LT(difference(parts, thrown, Tensor::Identity(), "Verlet", 0.1), round_off);
 }
 
+// A free cylinder, with friction, that is its own image. Its part of the mass is that of the part of the bar.
+TEST(Symmetry, IsThatOfAFreeToolOnIt) {
+  Parts parts;
+  parts.times = key("Final Time", "1.5e-6");
+  parts.verlet = key("Fixed dt", "2e-8");
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                      key("Separate Body", "true"));
+  const auto struck = [](const Tensor& turn) {
+    std::string speeds;
+    for (int c = 0; c < 3; ++c) speeds += key(std::string("Speed ") + "XYZ"[c], std::to_string(-100 * turn(c, 2)));
+    return impact(turn, 1) +
+           section("tool", key("Type", "Rigid Cylinder") + key("Point", text_of(8.01 * h * turn.col(2))) +
+                               key("Axis", text_of(turn.col(1))) + key("Radius", "3e-3") + speeds +
+                               key("Friction Coefficient", "0.3") + key("Mass", turn.isIdentity() ? "4e-4" : "1e-4"));
+  };
+  EXPECT_LT(difference(parts, struck, turned_in_space()), 1e-6);  // digits of the speeds
+}
+
 // Also where bonds break in the first step that strains the body: what is counted and fitted then, by the places at the
 // start of the step, is of images behind the planes.
 TEST(Symmetry, OfBondsThatBreakInTheFirstStep) {

@@ -1,4 +1,5 @@
-// Points whose neighbors nearly lie in one plane: one layer of cells that is bent, or left between two cracks.
+// Families that are told of: neighbors that nearly lie in one plane, as in one layer of cells that is bent, or left
+// between two cracks; and neighbors with other horizons.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,6 +32,30 @@ TEST(FlatFamilies, AreToldOf) {
   EXPECT_NE(told.find("WARNING: block 'block_1': the neighbors of 25 points"), std::string::npos) << told;
   EXPECT_NE(told.find(words), std::string::npos) << told;
   EXPECT_EQ(told_of(plate(folder, 2)).find(words), std::string::npos);
+}
+
+// Two bonded blocks of one spacing with other horizons.
+TEST(UnequalHorizons, AreToldOf) {
+  const RunFolder folder;
+  std::ostringstream text;
+  for (int n = 0; n < 54; ++n) {
+    text << n % 3 << "e-3 " << n / 3 % 3 << "e-3 " << n / 9 << "e-3 " << (n < 27 ? 1 : 2) << " 1e-9\n";
+  }
+  folder.write("points.txt", text.str());
+  const auto told_of = [&folder](const std::string& factor, const std::string& keys = "") {
+    Parts parts;
+    parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+    const std::string copper = key("Material", "copper");
+    parts.blocks = section("lower", key("Block Names", "block_1") + copper + key("Horizon Factor", "1.75")) +
+                   section("upper", key("Block Names", "block_2") + copper + key("Horizon Factor", factor) + keys);
+    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+  };
+  const std::string words = "are bonded to points with other horizons", told = told_of("2.3");
+  EXPECT_NE(told.find("'block_1': 18 points, one of them at (0, 0, 0.001) m, " + words + ", by a factor of up to 1.31"),
+            std::string::npos)
+      << told;
+  EXPECT_EQ(told_of("1.8").find(words), std::string::npos);
+  EXPECT_EQ(told_of("2.3", key("Separate Body", "true")).find(words), std::string::npos);
 }
 
 // The highest mode of a flat family is ten times as fast as a wave between points. Damping by the whole edge of a cell
