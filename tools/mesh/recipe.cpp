@@ -150,6 +150,7 @@ class Lines {
     std::string text;
     int lines = 0;
     for (int number = 1; std::getline(stream, text); ++number) {
+      if (number == 1) text = without_mark(text);
       const std::string content = trimmed(text.substr(0, text.find('#')));
       if (content.empty()) continue;
       if (content.find('\0') != std::string::npos) throw Error("it is no recipe but holds other than text");

@@ -126,6 +126,10 @@ TEST_F(MeshTool, BoxFillsItsSizeAndHasSixFaces) {
   EXPECT_EQ(set_sizes(cloud), expected);
 }
 
+TEST_F(MeshTool, ARecipeMayBeginWithAByteOrderMark) {
+  EXPECT_EQ(made("\xef\xbb\xbfshape = box\nsize = 1 2 3\nspacing = 1\n").size(), 6);
+}
+
 TEST_F(MeshTool, SpheresAreTheSamePointsAsHexahedra) {
   for (const std::string shape : {"shape = cylinder\nmethod = fitted\nlength = 2\nradius = 1\nspacing = 0.3\n",
                                   "shape = cone\nlength = 2\nradius = 1\ntop_radius = 0.6\nspacing = 0.3\n",
@@ -250,7 +254,8 @@ TEST_F(MeshTool, WrongRecipesAreRefusedWithTheirLines) {
   const testing::Outcome outcome = make("shape = cylindre\nspaceing = 1\nlength = -2\nspacing = 1\nsize = 1 2 3\n");
   EXPECT_EQ(outcome.status, 1);
   for (const char* expected :
-       {"line 1: shape is 'cylindre', expected cylinder or cone or box or foam or lattice or file (did you mean 'cylinder'?)",
+       {"line 1: shape is 'cylindre', expected cylinder or cone or box or foam or lattice or file (did you mean "
+        "'cylinder'?)",
         "line 2: unknown key 'spaceing' (did you mean 'spacing'?)", "line 3: length is '-2', expected a length > 0",
         "line 5: a lattice cylinder has no key 'size'", "lacks the key 'radius'"}) {
     EXPECT_NE(outcome.text.find(expected), std::string::npos) << outcome.text;
