@@ -33,7 +33,7 @@ _strut() {
   esac
   case \$word in
     -*) mapfile -t COMPREPLY < <(compgen -W "$options" -- "\$word") ;;
-    *) mapfile -t COMPREPLY < <(for end in xml yaml; do compgen -f -X "!*.\$end" -- "\$word"; done; compgen -d -- "\$word") ;;
+    *) mapfile -t COMPREPLY < <(for end in xml yaml yml; do compgen -f -X "!*.\$end" -- "\$word"; done; compgen -d -- "\$word") ;;
   esac
 }
 complete -o filenames -F _strut strut

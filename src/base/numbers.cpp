@@ -26,6 +26,11 @@ std::optional<Number> parse(std::string_view text) {
 
 }  // namespace
 
+std::string_view without_mark(std::string_view line) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return line.substr(line.starts_with(mark) ? mark.size() : 0);
+}
+
 std::string_view trimmed(std::string_view text) {
   const std::string_view blanks = " \t\r\n";
   const std::size_t begin = text.find_first_not_of(blanks);

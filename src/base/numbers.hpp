@@ -10,6 +10,9 @@ namespace strut {
 
 std::string_view trimmed(std::string_view text);
 
+// Without the byte order mark that some editors put before the first line of a text.
+std::string_view without_mark(std::string_view line);
+
 std::optional<int> to_integer(std::string_view text);
 std::optional<double> to_real(std::string_view text);  // may be infinite or NaN: "inf", "1e999", "nan"
 std::optional<double> to_finite(std::string_view text);

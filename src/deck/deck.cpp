@@ -187,8 +187,7 @@ std::string contents(const fs::path& file) {
   }
   std::ostringstream text;
   text << stream.rdbuf();
-  const std::string byte_order_mark = "\xef\xbb\xbf";
-  return text.str().substr(text.str().starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  return std::string(without_mark(text.str()));
 }
 
 }  // namespace

@@ -21,7 +21,9 @@ trap ended TERM USR1
 touch "begun.$rank"
 for n in $(seq 300); do sleep 0.1 & wait $!; done
 END
-chmod +x tools/prepare build/release/strut
+mkdir build/release/tools
+printf '#!/bin/sh\necho "$2" > "$2"\n' > build/release/tools/strut-mesh
+chmod +x tools/prepare build/release/strut build/release/tools/strut-mesh
 
 tools/run -np 2 wrong.xml > log 2>&1
 status=$?
@@ -30,6 +32,22 @@ said=$(cat log)
 case $(mpirun --version 2> /dev/null) in *"Open MPI) "[5-9]*) said=$(grep '^strut: ' log) ;; esac  # tells it again, in its own words
 [ "$said" = "strut: wrong.xml: 1 problem" ] || fail "an error: expected one line"
 tools/run -np 2 done.xml > log 2>&1 || fail "a run that is done fails"
+
+# The mesh is made from its recipe, however the deck spells its name.
+touch foam.recipe
+spelled() {
+  rm -f foam.g
+  printf "$2" > "done.$1"
+  tools/run -np 1 "done.$1" > log 2>&1
+  [ -f foam.g ] || fail "the mesh of the deck '$2' is not made"
+}
+sed -i 's/done.xml/done.*/' build/release/strut
+spelled yaml 'Discretization:\n  Input Mesh File: foam.g\n'
+spelled yaml 'Discretization:\r\n  "Input Mesh File": '"'foam.g'"' # the foam\r\n'
+spelled yaml 'Discretization:\n  # Input Mesh File: old.g\n  Input Mesh File: foam.g  # the foam\n'
+spelled yml 'Discretization: {Type: Exodus, Input Mesh File: foam.g, Points: Nodes}\n'
+spelled xml '<Parameter name="Input Mesh File" type="string" value="foam.g"/>\n'
+spelled xml '<!-- <Parameter name="Input Mesh File" value="old.g"/> -->\n<Parameter value="foam.g"\n name="Input Mesh File"/>\n'
 
 for signal in TERM USR1; do
   rm -f begun.* written.*

@@ -41,16 +41,21 @@ void check(const Body& body) {
   }
 }
 
+// What lies on one side of a surface has no thickness.
+bool is_solid(const Body& body) { return body.lattice == "gyroid" || body.lattice == "diamond"; }
+
 // Struts thinner than a voxel are disconnected until the radius connects them, and then there are too many voxels. In a
 // regular skeleton many voxels are equally far from the edges, and whole ones come together.
 void check(const Body& body, const Struts& struts, std::size_t wanted) {
   if (volume_of(struts) <= too_much * static_cast<double>(wanted)) return;
-  const bool is_thin = 2 * struts.radius < body.spacing;
+  const bool is_thin = !is_solid(body) && 2 * struts.radius < body.spacing;
   throw Error("body '" + body.name + "': " +
               (is_thin ? "struts of this relative density would be thinner than the voxels"
                        : "many voxels are equally far from the edges and come together") +
-              "; in one piece they are " + number(2 * struts.radius / body.spacing) + " spacings thick and have " +
-              number(volume_of(struts) / static_cast<double>(wanted)) + " times the density: take a smaller spacing" +
+              "; in one piece they " +
+              (is_solid(body) ? "" : "are " + number(2 * struts.radius / body.spacing) + " spacings thick and ") +
+              "have " + number(volume_of(struts) / static_cast<double>(wanted)) +
+              " times the density: take a smaller spacing" +
               (is_thin ? " or larger cells" : ", or 'cells = 6', which holds them in part"));
 }
 
@@ -153,7 +158,7 @@ std::size_t wanted_of(const Body& body, const VoxelGrid& grid) {
   return static_cast<std::size_t>(std::llround(body.relative_density * static_cast<double>(grid.count())));
 }
 
-std::string summary_of_lattice(const Body& body, const VoxelGrid& grid, const Struts& struts, bool is_solid) {
+std::string summary_of_lattice(const Body& body, const VoxelGrid& grid, const Struts& struts) {
   const Vector count = body.size / body.cell, h = grid.spacing();
   std::ostringstream text;
   text.precision(6);
@@ -168,7 +173,8 @@ std::string summary_of_lattice(const Body& body, const VoxelGrid& grid, const St
   } else {
     text << "  ";
   }
-  if (!is_solid) text << 2 * struts.radius / std::cbrt(h.prod()) << " voxels = " << 2 * struts.radius << " m thick; ";
+  if (!is_solid(body))
+    text << 2 * struts.radius / std::cbrt(h.prod()) << " voxels = " << 2 * struts.radius << " m thick; ";
   text << "spacing " << h.transpose() << " m\n";
   return text.str();
 }
@@ -196,10 +202,9 @@ io::Mesh lattice_mesh(const Body& body, std::string& summary) {
   check_periods(body);
   const VoxelGrid grid = grid_of_body(body);
   Struts struts = as_meshed(body, lattice_members(body, grid));
-  const bool is_solid = body.lattice == "gyroid" || body.lattice == "diamond";
   if (body.relative_density > 0) check(fine, struts, wanted_of(body, grid));
-  summary = summary_of_lattice(fine, grid, struts, is_solid);
-  if (is_solid) struts.radius = 0;  // a value of the field
+  summary = summary_of_lattice(fine, grid, struts);
+  if (is_solid(body)) struts.radius = 0;  // a value of the field
   return mesh_of_members(body, struts, has_struts(body.lattice) ? "struts" : "sheets", grid, summary);
 }
 

@@ -150,6 +150,7 @@ class Lines {
     std::string text;
     int lines = 0;
     for (int number = 1; std::getline(stream, text); ++number) {
+      if (number == 1) text = without_mark(text);
       const std::string content = trimmed(text.substr(0, text.find('#')));
       if (content.empty()) continue;
       if (content.find('\0') != std::string::npos) throw Error("it is no recipe but holds other than text");
@@ -258,6 +259,9 @@ class Converter {
   void take(const std::string& key, const Entry& entry, Kind kind, Body& body) {
     if (key == "name" || (key == "file" && !body.named)) body.name = entry.value;
     if (key == "name") body.named = true;
+    if (key == "name" && entry.value.find_first_of(" \t") != std::string::npos) {
+      fail(entry, "name is '" + entry.value + "', expected one word: a deck names blocks with blanks between them");
+    }
     if (key == "file") body.file = folder_ / entry.value;
     if (key == "elements") body.elements = choice<Body::Elements>(key, {"hex", "sphere"}, 0);
     if (key == "centred") body.centered = choice<Body::Centered>(key, {"point", "corner"}, 1);

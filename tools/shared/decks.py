@@ -123,7 +123,7 @@ class Recipe:
     def __init__(self, path):
         self.path = path
         try:
-            with open(path) as file:
+            with open(path, encoding="utf-8-sig") as file:
                 self.text = file.read()
         except (OSError, UnicodeDecodeError) as error:
             fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")

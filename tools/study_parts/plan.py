@@ -39,7 +39,7 @@ def read(path, converge=None):
     study = Study(path)
     check_input(path)
     try:
-        with open(path) as file:
+        with open(path, encoding="utf-8-sig") as file:
             lines = [line.split("#")[0].strip() for line in file]
     except (OSError, UnicodeDecodeError) as error:
         fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")

@@ -28,7 +28,7 @@ def factor_of(word, where):
 def unit_of(path, ending):
     """The unit of length of the file in m; None if it has none."""
     if ending in NRRD:
-        found = re.search(r"^(?:space units|units):(.*)$", re.split(r"\r?\n\r?\n", head_of(path))[0], re.M)
+        found = re.search(r"^(?:space units|units):(.*)$", re.split(r"\r?\n\r?\n", head_of(path))[0], re.M | re.I)
     else:
         found = re.search(r"^DistanceUnits\s*=(.*)$", head_of(path), re.M) if ending in META_IMAGE else None
     if not found:

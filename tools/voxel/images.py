@@ -202,7 +202,25 @@ def slices(names, where):
             fail(f"{name} has {shape_text(page)} voxels of {page.dtype}, expected {values.shape[2]} x "
                  f"{values.shape[1]} x 1 of {values.dtype} as in {names[0]}")
         values[z] = page[0]
-    return Image(values, None, f"{len(names)} slices, {kind}")
+    return Image(values, None, f"{len(names)} slices, {kind}{gap_in(names)}")
+
+
+def gap_in(names):
+    """Words on the first place where the numbers in the names of slices, which rise by equal steps, leave some out: the body
+    is shorter by those."""
+    numbers = [[int(n) for n in re.findall(r"\d+", os.path.basename(name))] for name in names]
+    if len({len(found) for found in numbers}) > 1:
+        return ""
+    steps = [tuple(b - a for a, b in zip(one, other)) for one, other in zip(numbers, numbers[1:])]
+    usual = max(steps, key=steps.count)
+    if sum(n != 0 for n in usual) != 1:
+        return ""
+    (at, step), = ((i, n) for i, n in enumerate(usual) if n)
+    for i, found in enumerate(steps):
+        if found[at] > step and not any(found[:at] + found[at + 1:]):
+            return (f" (WARNING: none is numbered from {numbers[i][at] + step} to {numbers[i + 1][at] - step}, between "
+                    f"{os.path.basename(names[i])} and {os.path.basename(names[i + 1])}: they are taken as neighbors)")
+    return ""
 
 
 def shape_text(values):
@@ -243,15 +261,17 @@ def by_vtk(path, module, name, array):
 def array_of(path, image, name):
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
-    in_points, in_cells = image.GetPointData(), image.GetCellData()
-    data = in_points if in_points.GetNumberOfArrays() else in_cells
-    names = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
+    both = in_points, in_cells = image.GetPointData(), image.GetCellData()
+    held = [(data, data.GetArrayName(i)) for data in both for i in range(data.GetNumberOfArrays())]
+    names = [held_name for _, held_name in held]
     if not names:
         fail(f"{path} has no numbers")
     if name is not None and name not in names:
         fail(f"{path} has no array '{name}'{nearest(name, names)}; it has {', '.join(map(str, names))}")
-    if name is None and len(names) > 1 and data.GetScalars() is None:
+    chosen = [data for data in both if data.GetScalars()]  # by the file
+    if name is None and len(names) > 1 and len(chosen) != 1:
         fail(f"{path} has several arrays: name one with --array; there are {', '.join(map(str, names))}")
+    data = next(data for data, held_name in held if held_name == name) if name else (chosen or [held[0][0]])[0]
     found = data.GetArray(name) if name else data.GetScalars() or data.GetArray(0)
     if found is None:
         fail(f"{path}: the array is not one of numbers")

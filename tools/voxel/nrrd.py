@@ -46,6 +46,7 @@ def header_of(path, file):
             break
         if ": " in line and not line.startswith("#"):
             key, value = line.split(": ", 1)
+            key = key.lower()  # the format takes either case
             key = {"datafile": "data file", "byteskip": "byte skip", "lineskip": "line skip"}.get(key, key)
             if fields.setdefault(key, value.strip()) != value.strip():
                 fail(f"{path}: '{key}' is said twice: {fields[key]}, and {value.strip()}")
@@ -96,7 +97,10 @@ def unpacked(path, fields, content):
             fail(f"{path} is damaged: {error}")
     elif encoding in ("ascii", "text", "txt"):
         try:
-            return np.array(content.split(), "i8" if code[0] in "iu" else code).astype(code)
+            numbers = np.array(content.split(), "i8" if code[0] in "iu" else code)
+            if code[0] in "iu" and (numbers.astype(code) != numbers).any():
+                raise OverflowError(f"{numbers[numbers.astype(code) != numbers][0]} is no number of type {fields['type']}")
+            return numbers.astype(code)
         except (ValueError, OverflowError) as error:
             fail(f"{path} is damaged: {error}")
     elif encoding == "hex":
@@ -131,13 +135,16 @@ def order_of(path, fields, code):
 
 
 def gunzipped(path, content):
-    unpacker = zlib.decompressobj(31)
-    try:
-        out = unpacker.decompress(content)
-    except zlib.error as error:
-        fail(f"{path} is damaged: {error}")
-    if not unpacker.eof:
-        fail(f"{path} is damaged: its gzip stream is cut off")
+    out = b""
+    while content.startswith(b"\x1f\x8b") or not out:  # several streams, one after the other, are one
+        unpacker = zlib.decompressobj(31)
+        try:
+            out += unpacker.decompress(content)
+        except zlib.error as error:
+            fail(f"{path} is damaged: {error}")
+        if not unpacker.eof:
+            fail(f"{path} is damaged: its gzip stream is cut off")
+        content = unpacker.unused_data
     return out
 
 

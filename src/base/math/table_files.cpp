@@ -83,8 +83,7 @@ std::string numbers_in_table(const fs::path& file) {
   bool has_header = false;
   int row = 0;
   for (std::string line; std::getline(stream, line);) {
-    if (++row == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
-    const std::string_view content = trimmed(line);
+    const std::string_view content = trimmed(++row == 1 ? without_mark(line) : line);
     if (content.empty() || content[0] == '#') continue;
     const std::vector<std::string_view> words = cells(content);
     const std::string where = file.string() + ", line " + std::to_string(row) + ": ";

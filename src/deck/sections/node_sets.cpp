@@ -65,9 +65,10 @@ std::optional<std::vector<int>> numbers_in(const std::string& text) {
 std::string without_comments(std::istream& file) {
   std::string text, line;
   while (std::getline(file, line)) {
-    const std::string_view content = trimmed(line);
+    const std::string_view content = trimmed(text.empty() ? without_mark(line) : line);
     if (content.starts_with("header:")) continue;
-    if (!content.empty() && std::string_view("#/*").find(content[0]) == std::string_view::npos) text += line + " ";
+    if (!content.empty() && std::string_view("#/*").find(content[0]) == std::string_view::npos)
+      text += std::string(content) + " ";
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include "io/exodus/exodus_file.hpp"
 
 #include <exodusII.h>
+#include <netcdf.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -206,6 +207,14 @@ std::array<std::vector<double>, 3> ExodusFile::coordinates(std::int64_t begin, s
   for (auto& column : x) column.resize(count);
   if (count == 0) return x;
   check(ex_get_partial_coord(handle_, begin + 1, count, x[0].data(), x[1].data(), x[2].data()), "read the coordinates");
+  // The library skips a column that is the file's first variable, as other writers have it.
+  const std::array<const char*, 3> names = {"coordx", "coordy", "coordz"};
+  const auto first = static_cast<std::size_t>(begin), many = static_cast<std::size_t>(count);
+  for (int axis = 0; axis < 3; ++axis) {
+    int number = -1;
+    if (nc_inq_varid(handle_, names[axis], &number) != NC_NOERR || number != 0) continue;
+    check(nc_get_vara_double(handle_, number, &first, &many, x[axis].data()), "read the coordinates");
+  }
   return x;
 }
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/numbers.hpp"
 #include "base/parallel/gather_scatter.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/on_root.hpp"
@@ -60,7 +61,7 @@ class TextFile {
     std::vector<Line> lines;
     std::string text;
     while (lines.size() < most && std::getline(file_, text)) {
-      ++number_;
+      if (++number_ == 1) text = without_mark(text);
       const std::string content = text.substr(0, text.find('#'));
       if (content.find_first_not_of(" \t\r") == std::string::npos) continue;
       if (is_header(content)) continue;

@@ -144,7 +144,7 @@ TEST(DeckOfPeridigm, Grid) {
 
 TEST(DeckOfPeridigm, SetsOfPointsByNumber) {
   const DeckFolder folder;
-  folder.write("set.txt", "# the left face\n4 1\n1 7\n");
+  folder.write("set.txt", "\xef\xbb\xbf# the left face\n4 1\n1 7\n");
   const std::string condition =
       list("push", key("Type", "string", "Initial_Velocity") + key("Node Set", "string", "Left Node Set") +
                        key("Coordinate", "string", "X") + key("Value", "double", "1.0")) +

@@ -300,7 +300,7 @@ TEST(Text, BlocksAreNamedByTheirNumbers) {
   const Communicator world;
   const TemporaryFolder folder(world);
   run_on_root(world, [&] {
-    std::ofstream(folder / "points.txt") << "# x y z block volume\n"
+    std::ofstream(folder / "points.txt") << "\xef\xbb\xbf# x y z block volume\n"  // some editors begin so
                                             "0 0 0  2 1e-9\n\n"
                                             "1.5e-3 0 -1  1 2e-9  # a comment\r\n"
                                             "  2 0 0  2 3e-9";

@@ -1,6 +1,7 @@
 // Whatever a file holds, reading it gives one Error on all ranks that names the file: no crash, no hang.
 #include <exodusII.h>
 #include <gtest/gtest.h>
+#include <netcdf.h>
 #include <signal.h>
 #include <sys/resource.h>
 
@@ -90,6 +91,36 @@ TEST_F(BrokenFile, HDF5TruncatedAnywhere) {
   }
   run_on_root(world, [&] { write_bytes(folder / "cut.g", bytes.substr(0, bytes.size() - 1)); });
   expect_error(world, folder / "cut.g", "cannot open");
+}
+
+// The same file with `first` as its first variable.
+void reorder(const fs::path& file, const fs::path& copy, const std::string& first) {
+  int in = 0, out = 0, dimensions = 0, variables = 0, attributes = 0, unlimited = 0, number = 0;
+  nc_open(file.c_str(), NC_NOWRITE, &in), nc_create(copy.c_str(), NC_CLOBBER | NC_64BIT_OFFSET, &out);
+  nc_inq(in, &dimensions, &variables, &attributes, &unlimited);
+  char name[NC_MAX_NAME + 1];
+  for (int d = 0; d < dimensions; ++d) {
+    std::size_t length = 0;
+    nc_inq_dim(in, d, name, &length), nc_def_dim(out, name, d == unlimited ? NC_UNLIMITED : length, &number);
+  }
+  for (int a = 0; a < attributes; ++a)
+    nc_inq_attname(in, NC_GLOBAL, a, name), nc_copy_att(in, NC_GLOBAL, name, out, NC_GLOBAL);
+  nc_enddef(out), nc_inq_varid(in, first.c_str(), &number), nc_copy_var(in, number, out);
+  for (int v = 0; v < variables; ++v) EXPECT_EQ(v == number ? NC_NOERR : nc_copy_var(in, v, out), NC_NOERR);
+  nc_close(in), nc_close(out);
+}
+
+// Exodus' library skips such a column: spheres stood at x = 0, hexahedra had no volume.
+TEST_F(BrokenFile, CoordinatesMayBeTheFirstVariable) {
+  const fs::path file = mesh_file(row_of_cubes(3));
+  const PointCloud right = read_exodus(file, world);
+  for (const char* axis : {"coordx", "coordy", "coordz"}) {
+    run_on_root(world, [&] { reorder(file, folder / "first.g", axis); });
+    const PointCloud cloud = read_exodus(folder / "first.g", world);
+    EXPECT_EQ(cloud.positions, right.positions);
+    EXPECT_EQ(cloud.volumes, right.volumes);
+    world.barrier();
+  }
 }
 
 TEST_F(BrokenFile, TruncatedAnywhere) {

@@ -264,7 +264,9 @@ TEST_F(FoamRecipe, WrongRecipesAreRefused) {
       {"shape = lattice\nlattice = bcc\nsize = 1.7 1 1\ncell = 1\nspacing = 0.05\nperiodic = x\n" + density,
        "periodic along x, but 1.7 cells of 1 m"},
       {"shape = lattice\nlattice = octet\nsize = 1 1 1\ncell = 1\nspacing = 0.1\nrelative_density = 0.3\n",
-       "many voxels are equally far from the edges and come together"}};
+       "many voxels are equally far from the edges and come together"},
+      {"shape = lattice\nlattice = diamond\ncount = 2\ncell = 1\nspacing = 0.05\nrelative_density = 0.2\n",
+       "come together; in one piece they have 1.11 times the density"}};
   for (const auto& [recipe, part] : wrong) {
     const testing::Outcome outcome = make(recipe);
     EXPECT_EQ(outcome.status, 1) << recipe;

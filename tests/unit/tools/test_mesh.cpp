@@ -126,6 +126,10 @@ TEST_F(MeshTool, BoxFillsItsSizeAndHasSixFaces) {
   EXPECT_EQ(set_sizes(cloud), expected);
 }
 
+TEST_F(MeshTool, ARecipeMayBeginWithAByteOrderMark) {
+  EXPECT_EQ(made("\xef\xbb\xbfshape = box\nsize = 1 2 3\nspacing = 1\n").size(), 6);
+}
+
 TEST_F(MeshTool, SpheresAreTheSamePointsAsHexahedra) {
   for (const std::string shape : {"shape = cylinder\nmethod = fitted\nlength = 2\nradius = 1\nspacing = 0.3\n",
                                   "shape = cone\nlength = 2\nradius = 1\ntop_radius = 0.6\nspacing = 0.3\n",
@@ -247,12 +251,15 @@ TEST_F(MeshTool, GradingThatCannotBeIsRefused) {
 }
 
 TEST_F(MeshTool, WrongRecipesAreRefusedWithTheirLines) {
-  const testing::Outcome outcome = make("shape = cylindre\nspaceing = 1\nlength = -2\nspacing = 1\nsize = 1 2 3\n");
+  const testing::Outcome outcome =
+      make("shape = cylindre\nspaceing = 1\nlength = -2\nspacing = 1\nsize = 1 2 3\nname = a b\n");
   EXPECT_EQ(outcome.status, 1);
   for (const char* expected :
-       {"line 1: shape is 'cylindre', expected cylinder or cone or box or foam or lattice or file (did you mean 'cylinder'?)",
+       {"line 1: shape is 'cylindre', expected cylinder or cone or box or foam or lattice or file (did you mean "
+        "'cylinder'?)",
         "line 2: unknown key 'spaceing' (did you mean 'spacing'?)", "line 3: length is '-2', expected a length > 0",
-        "line 5: a lattice cylinder has no key 'size'", "lacks the key 'radius'"}) {
+        "line 5: a lattice cylinder has no key 'size'", "line 6: name is 'a b', expected one word",
+        "lacks the key 'radius'"}) {
     EXPECT_NE(outcome.text.find(expected), std::string::npos) << outcome.text;
   }
   EXPECT_FALSE(std::filesystem::exists(path("mesh.g")));

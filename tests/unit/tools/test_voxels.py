@@ -592,6 +592,17 @@ class Formats(ToolTest):
             np.testing.assert_array_equal(found.values, values, err_msg=f"{kind} {encoding} {order}")
             self.assertEqual(found.spacing, (0.001, 0.002, 0.003))
 
+    def test_nrrd_of_other_writers(self):
+        head, data = nrrd(self.image).split(b"\n\n", 1)
+        titled = b"\n".join(line.title() if b": " in line else line for line in head.split(b"\n"))
+        self.check(self.write("a.nrrd", titled + b"\n\n" + data))
+        millimeters = titled.replace(b"0.001 0.002 0.003", b'1 2 3\nSpace Units: "mm" "mm" "mm"')
+        self.check(self.write("a.nrrd", millimeters + b"\n\n" + data))
+        streams = b"".join(gzip.compress(data[n:n + 100]) for n in range(0, len(data), 100))
+        self.check(self.write("a.nrrd", head.replace(b"raw", b"gzip") + b"\n\n" + streams))
+        large = nrrd(self.image, "ascii").replace(b" 200 ", b" 456 ")
+        self.refused("voxels", "456 is no number of type uint8", self.write("a.nrrd", large))
+
     def test_nrrd_with_directions(self):
         def file(directions):
             head = nrrd(self.turned()).replace(b"spacings: 0.001 0.002 0.003", b"space directions: " + directions)
@@ -718,6 +729,9 @@ class Formats(ToolTest):
             tifffile.imwrite(self.path(f"slices/s{z}.tif"), page)  # s10 comes after s9
         self.check(self.path("slices"), "--voxel-size", *self.spacing)
         self.check(self.path("slices/s*.tif"), "--voxel-size", *self.spacing)
+        self.assertNotIn("WARNING", self.works("voxels", self.path("slices/s*[02468].tif"), "--size", 1)[0]["image"])
+        os.remove(self.path("slices/s2.tif"))
+        self.assertIn("none is numbered from 2 to 2, between s1.tif and s3.tif", self.works("voxels", self.path("slices"), "--size", 1)[0]["image"])
 
     def test_vtk(self):
         from vtkmodules.vtkIOImage import vtkMetaImageWriter
@@ -744,6 +758,14 @@ class Formats(ToolTest):
         image.SetDimensions(13, 11, 9)
         image.GetCellData().SetScalars(array)
         self.check(written(vtkXMLImageDataWriter(), self.path("a.vti"), image))
+        # Numbers at the corners, which the file does not name as those to be shown, are not taken in place of them.
+        array.SetName("solid")
+        corners = vtk_image(np.arange(13 * 11 * 9, dtype="f4").reshape(9, 11, 13), self.spacing).GetPointData().GetScalars()
+        corners.SetName("corners")
+        image.GetPointData().AddArray(corners)
+        both = written(vtkXMLImageDataWriter(), self.path("a.vti"), image)
+        self.check(both)
+        self.check(both, "--array", "solid")
 
 
 class Damaged(ToolTest):
