@@ -77,7 +77,8 @@ using FailureCriterion = std::variant<FailureStrain, JohnsonCookFailure, Cockcro
 // The failure of a metal: its criterion and its fracture energy.
 struct Ductility {
   FailureCriterion criterion;
-  double fracture_energy = 0;  // G_c, J/m²: dissipation per area of crack from then on; 0: it fails at once
+  double fracture_energy = 0;   // G_c, J/m²: dissipation per area of crack from then on; 0: it fails at once
+  double averaging_radius = 0;  // of the ball over which the growth of the criterion is averaged, m; 0: no average
 };
 
 }  // namespace strut::materials

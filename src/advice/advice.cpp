@@ -33,6 +33,7 @@ constexpr Check checks[] = {
     thin_members,
     narrow_surfaces_of_nodes,
     sudden_failure,
+    coarse_averages,
     noisy_cracks,
     soft_faces,
     breaks_under_pressure,

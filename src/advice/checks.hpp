@@ -73,6 +73,9 @@ std::string overlaps(const Situation& situation);
 // A line for each block whose points fail without softening, because its fracture energy is too small for its spacing.
 std::string sudden_failure(const Situation& situation);
 
+// A warning for each block whose spacing is too large for the Averaging Radius of its criterion.
+std::string coarse_averages(const Situation& situation);
+
 // A warning for each block by quadratic correspondence whose bonds break.
 std::string noisy_cracks(const Situation& situation);
 

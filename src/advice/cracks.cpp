@@ -36,6 +36,23 @@ std::string sudden_failure(const Situation& situation) {
   return text.str();
 }
 
+std::string coarse_averages(const Situation& situation) {
+  constexpr double least = 2;  // spacings
+  const Body& body = situation.scene.body;
+  std::ostringstream text;
+  text.precision(2);
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const auto& damage = body.blocks[b].material.damage;
+    const double spacing = body.domain.blocks[b].spacing;
+    if (!damage || !damage->ductility || !(damage->ductility->averaging_radius > 0) || !(spacing > 0)) continue;
+    const double spacings = damage->ductility->averaging_radius / spacing;
+    if (spacings > least * (1 - 1e-3)) continue;
+    text << "WARNING: block '" << body.blocks[b].name << "': its Averaging Radius is " << spacings
+         << " spacings, so the work to tear it depends on the spacing; expected " << least << " spacings or more\n";
+  }
+  return text.str();
+}
+
 std::string noisy_cracks(const Situation& situation) {
   const Body& body = situation.scene.body;
   std::string text;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "base/archive.hpp"
+#include "fracture/averaged_criterion.hpp"
 #include "fracture/bond_energies.hpp"
 #include "fracture/travel.hpp"
 #include "fracture/work_balance.hpp"
@@ -32,6 +33,8 @@ class Fracture : public BondBreaking {
   // at this time, s.
   explicit Fracture(Body& body, double time = 0);
 
+  // Collective. Call it at the start of a step.
+  void average_criteria(Body& body) { averaged_.average(body); }
   // Collective. Call it before owned points move over a step of dt (s) with these velocities (m/s), and periodic sides
   // by more `stretch` along x, y, z. Otherwise no bond breaks in the stress update that follows.
   void start_step(const Body& body, std::span<const Vector> velocities, double dt,
@@ -86,11 +89,12 @@ class Fracture : public BondBreaking {
   void count(Body& body, const Affected& one);
   void restore(Body& body);
 
-  std::vector<char> may_fail_;                  // of blocks: their points may fail, and then lose their bonds
-  std::vector<int> block_of_;                   // of owned points and ghosts
-  std::vector<double> limits_;                  // (1 + s_c)² of owned points and ghosts; infinite without
-  bool by_time_ = false;                        // the deck's limits change with time
-  BondEnergies energies_;                       // of bonds in blocks with a critical bond energy
+  std::vector<char> may_fail_;  // of blocks: their points may fail, and then lose their bonds
+  std::vector<int> block_of_;   // of owned points and ghosts
+  std::vector<double> limits_;  // (1 + s_c)² of owned points and ghosts; infinite without
+  bool by_time_ = false;        // the deck's limits change with time
+  BondEnergies energies_;       // of bonds in blocks with a critical bond energy
+  AveragedCriterion averaged_;
   bool is_looked_at_ = false;                   // a bond may break in this step
   std::vector<Vector> start_;                   // positions of owned points and ghosts at the start of such a step, m
   std::vector<GradientState> start_gradients_;  // gradient states at the start of such a step

@@ -71,6 +71,9 @@ struct PointFields {
   PointField<double> fracture_energy = fields.of_points<double>(
       {.name = "fracture_energy", .unit = "J", .meaning = "dissipated by its bonds that broke", .kept = true},
       When::if_used);
+  PointField<double> averaged_indicator = fields.of_points<double>(
+      {.name = "averaged_indicator", .unit = "1", .meaning = "criterion of ductile failure, averaged", .kept = true},
+      When::if_used);
   PointField<std::uint8_t> released =
       fields.of_points<std::uint8_t>({.name = "released",
                                       .unit = "1",

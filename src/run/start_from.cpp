@@ -29,9 +29,10 @@ bool has_initial_velocity(const deck::Deck& deck) {
 // True for data that a checkpoint may lack: a body that could not break is whole, one that was not heated has not
 // expanded, and new contact begins anew.
 bool may_be_missing(const std::string& name) {
-  constexpr std::array of_points = {"thermal_strain", "expansion_pull",  "expansion_work", "reference_temperature",
-                                    "damage",         "fracture_energy", "released",       "breaks",
-                                    "tensor_state",   "scalar_state",    "gradient_state", "quadratic_state"};
+  constexpr std::array of_points = {
+      "thermal_strain",  "expansion_pull", "expansion_work", "reference_temperature", "damage",
+      "fracture_energy", "released",       "breaks",         "averaged_indicator",    "tensor_state",
+      "scalar_state",    "gradient_state", "quadratic_state"};
   if (name.starts_with("contact_") || name == "penetration" || name == "searches") return true;
   if (name.ends_with("_reach")) return true;  // a tool that was not there
   return std::ranges::any_of(of_points, [&](const char* one) { return name == std::string("all points > ") + one; });

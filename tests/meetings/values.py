@@ -163,6 +163,7 @@ VALUES = {
     "Bond Energy > Fracture Energy": lambda c: Num(c.E * c.h * c.uniform(3e-3, 3e-2) ** 2, "J/m²"),
     "Plastic Strain > Failure Strain": uniform(3e-3, 3e-2),
     "Fracture Energy": lambda c: Num(c.flow * c.h * c.uniform(0, 0.03), "J/m²"),
+    "Averaging Radius": lambda c: Num(c.h * c.uniform(0.5, 3), "m"),
     "D1": uniform(1e-3, 2e-2),
     "D2": uniform(1e-3, 2e-2),
     "D3": uniform(-3, -0.5),

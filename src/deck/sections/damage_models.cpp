@@ -51,6 +51,14 @@ const RealKey tearing_energy(
      .meaning = "G_c, dissipated per area of crack (roughly) while the stress falls once the criterion is met. 0: a "
                 "point fails at once, and the dissipation depends on the spacing."});
 
+const RealKey averaging_radius({.name = "Averaging Radius",
+                                .unit = "m",
+                                .range = not_negative,
+                                .fallback = "0",
+                                .meaning = "R of a ball in the reference mesh; the criterion's growth is averaged over "
+                                           "it, through bonds that hold. From two spacings on the work to tear depends "
+                                           "less on the spacing. 0: no average."});
+
 const RealKey failure_strain({.name = "Failure Strain", .range = positive, .meaning = "ε_f."});
 
 const RealKey d1({.name = "D1", .meaning = "D₁ of ε_f = (D₁ + D₂ exp(D₃ σ*)) (1 + D₄ ln max(ε̇/ε̇₀, 1))."});
@@ -77,7 +85,7 @@ const RealKey critical_work({.name = "Critical Work",
                              .meaning = "W_c = ∫ max(σ₁, 0) dε̄, σ₁ the largest principal stress."});
 
 DamageModel ductile(materials::FailureCriterion criterion, const Values& values) {
-  return {.ductility = materials::Ductility{criterion, values[tearing_energy]}};
+  return {.ductility = materials::Ductility{criterion, values[tearing_energy], values[averaging_radius]}};
 }
 
 DamageModel read_johnson_cook(const Values& v, Problems& problems) {
@@ -152,16 +160,16 @@ const std::vector<ModelEntry>& entries() {
        read_bond_energy},
       {{.name = "Plastic Strain",
         .meaning = "A point of a J2 metal fails, and all its bonds break, where its plastic strain reaches ε_f.",
-        .keys = {failure_strain, tearing_energy}},
+        .keys = {failure_strain, tearing_energy, averaging_radius}},
        [](const Values& v, Problems&) { return ductile(materials::FailureStrain{v[failure_strain]}, v); }},
       {{.name = "Johnson-Cook",
         .meaning = "The same where ∫ dε̄/ε_f = 1 with ε_f of Johnson and Cook (1985); σ* is the mean stress over the "
                    "von Mises stress, at most 1.5.",
-        .keys = {d1, d2, d3, d4, d5, reference_rate, room, melting, tearing_energy}},
+        .keys = {d1, d2, d3, d4, d5, reference_rate, room, melting, tearing_energy, averaging_radius}},
        read_johnson_cook},
       {{.name = "Cockcroft-Latham",
         .meaning = "The same where the plastic work of the largest tensile principal stress reaches W_c.",
-        .keys = {critical_work, tearing_energy}},
+        .keys = {critical_work, tearing_energy, averaging_radius}},
        [](const Values& v, Problems&) { return ductile(materials::CockcroftLatham{v[critical_work]}, v); }}};
   return all;
 }

@@ -111,6 +111,7 @@ double CentralDifference::energy_of_half_step(const std::vector<Vector>& inner) 
 void CentralDifference::advance_position(bool with_diagnostics) {
   update_rigid_motion(body_);
   if (fracture_) {
+    fracture_->average_criteria(body_);
     const Domain& domain = body_.domain;
     fracture_->start_step(body_, body_.velocity, dt(),
                           stretch_at(domain.periods, length_.next_time()) - domain.halo.stretch());

@@ -204,6 +204,7 @@ deck() {
       <Parameter name="Damage Model" type="string" value="Plastic Strain"/>
       <Parameter name="Failure Strain" type="double" value="0.02"/>
       <Parameter name="Fracture Energy" type="double" value="17.0e3"/>
+      <Parameter name="Averaging Radius" type="double" value="0.01"/>
     </ParameterList>
   </ParameterList>
   <ParameterList name="Blocks">

@@ -242,7 +242,7 @@ def tearing():
     assert yields in text
     text = text.replace(yields, heating + yields)
     text = text.replace('"Quadratic Correspondence"/>', '"Correspondence"/>' + keys(Stabilization="Silling"))
-    strain = keys(Damage_Model="Plastic Strain", Failure_Strain=0.02, Fracture_Energy=10e3)
+    strain = keys(Damage_Model="Plastic Strain", Failure_Strain=0.02, Fracture_Energy=10e3, Averaging_Radius=2.5 * SPACING)
     text = text.replace(keys(Damage_Model="by energy"), "").replace("breaking.", "tearing.")
     return [text, section("Damage Models", section("brittle", strain))]
 
