@@ -70,7 +70,9 @@ struct MechanicalThreshold {
     const SymmetricOf<T> d = deviator(deformation_rate);
     const T equivalent = sqrt(T(double_dot(d, d) / 1.5));
     const T now = equivalent > slowest_rate ? equivalent : same<T>(slowest_rate), log_rate = log(now);
-    const T limit = saturation * exp(T(relative_energy / saturation_energy * (log_rate - std::log(saturation_rate))));
+    constexpr double least = -40;  // an exponent, of a limit that is none: no 0 / 0
+    const T exponent = relative_energy / saturation_energy * (log_rate - std::log(saturation_rate));
+    const T limit = saturation * exp(exponent > least ? exponent : same<T>(least));
     const T steepest = slopes[0] + slopes[1] * log_rate + slopes[2] * sqrt(now);
     const T decay = exp(T(-2 * curvature * threshold / limit)), tanh = (1 - decay) / (1 + decay);
     const double end = std::tanh(curvature);
@@ -80,7 +82,9 @@ struct MechanicalThreshold {
   template <class T>
   At<T> at(const ThermalState<T>& state, const SymmetricOf<T>& deformation_rate) const {
     const T& temperature = state.temperature;
-    const T stiffness = 1 - shear_fall / shear / (exp(T(shear_temperature / temperature)) - 1);
+    constexpr double least = 1e-3;  // far above the melting temperature the fit of μ falls below 0
+    const T fitted = 1 - shear_fall / shear / (exp(T(shear_temperature / temperature)) - 1);
+    const T stiffness = fitted > least ? fitted : same<T>(least);
     const T relative = boltzmann / shear * temperature / stiffness, barrier = relative / energy;
     const auto [slope, bend] = hardening(state.threshold, relative, deformation_rate);
     const T slowest = activated(barrier, T{}).value;

@@ -64,6 +64,7 @@ void follow(MaterialBlock& block, std::size_t place, MaterialPoint& point, const
     if (from != to) {
       const auto along = materials::step_between(symmetric_part(from), symmetric_part(to), dt);
       const auto [stress, converged] = law.step(along, point.stress, state);
+      if constexpr (requires { state.time; }) state.time = block.state_of<L>(place).time;  // that step follows
       if (converged) point.stress = stress;
     }
     materials::move_stress(law, to, jumped, state);

@@ -151,7 +151,7 @@ bool Fracture::breaks_at_rest(const Body& body) const {
   return std::ranges::all_of(body.blocks, [](const MaterialBlock& block) {
     const auto& [formulation, law, damage] =
         std::tie(block.material.formulation, block.material.law, block.material.damage);
-    return !damage || strut::breaks_at_rest(formulation, law, *damage);
+    return damage ? strut::breaks_at_rest(formulation, law, *damage) : stays_while_others_break(formulation, law);
   });
 }
 

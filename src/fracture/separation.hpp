@@ -51,8 +51,9 @@ struct GradualCrack {
 GradualCrack gradual_crack(const PulledLattice& lattice, double fracture_energy);
 
 // Limit of the steepness of families with broken bonds, relative to an interior point: that of points at a corner,
-// which have an eighth of the family. A steeper point carries no stress.
-inline constexpr double steepness_of_corners = 8;
+// which have an eighth of the family, and some more: a lattice has families of exactly 8, which round-off, or a mirror,
+// must not part. A steeper point carries no stress.
+inline constexpr double steepness_of_corners = 8 * (1 + 1e-9);
 
 // The fraction of a strain jump that the stress follows, for linear elasticity: the λ from 0 to 1 that minimizes the
 // energy W + λ σ:Δε + ½ λ² Δε:C:Δε.

@@ -81,7 +81,9 @@ void find_rigid_motion(Body& body) {
   };
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
-    if (!is_in_place(body, block) || expands(body, b) || has_stress(body, block)) moved[first_of(b)] = 1;
+    // A library is called from the start: its time is that of the run.
+    const bool is_called = std::holds_alternative<materials::UserLaw>(block.material.law);
+    if (is_called || !is_in_place(body, block) || expands(body, b) || has_stress(body, block)) moved[first_of(b)] = 1;
   }
   body.domain.communicator.max(moved);
   for (std::size_t b = 0; b < blocks.size(); ++b) body.blocks[b].in_rigid_motion = moved[first_of(b)] == 0;

@@ -29,6 +29,11 @@ bool means(const std::string& name, const std::string& first_word, const std::ve
   return kind.starts_with(first_word) || !did_you_mean(kind, names).empty();
 }
 
+bool is_of_crack(const std::string& name) {
+  const bool is_of_points = before_bracket(name) == "Crack_Work";  // of a probe
+  return !is_of_points && means(name, "Crack", crack_names);
+}
+
 bool reacts(const ConditionPrototype& kind) {
   return std::visit([]<class Type>(const Type&) { return Reacts<Type>; }, kind);
 }
@@ -170,7 +175,7 @@ void look_up(const deck::Deck& deck, const std::vector<Observable>& all, const P
              const Communicator& communicator, const std::string& name) {
   if (means(without_instant(name), "Reaction", reaction_names)) {
     reaction(deck.conditions, name);
-  } else if (means(name, "Crack", crack_names)) {
+  } else if (is_of_crack(name)) {
     const deck::WatchedCrack& crack = *watched_crack(deck.history.cracks, name).first;
     if (!cloud.block_names.empty())
       PointGroup(cloud, crack.node_set, "History > Cracks > " + crack.name + " > Node Set");  // throws if there is none
@@ -236,7 +241,7 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
     attempt(problems, [&] {
       if (means(without_instant(name), "Reaction", reaction_names)) {
         variables.reactions.push_back(reaction(deck.conditions, name));
-      } else if (means(name, "Crack", crack_names)) {
+      } else if (is_of_crack(name)) {
         variables.crack_columns.push_back(crack_column(deck.history.cracks, body, name, variables.cracks));
       } else if (means(without_instant(name), "Contact", contact_names)) {
         variables.contacts.push_back(contact_force(contact, body.domain.cloud.block_names, name));

@@ -135,6 +135,24 @@ TEST(MechanicalThreshold, HardensToSaturation) {
   EXPECT_NEAR(point.state.equivalent_plastic_strain, strain, 1e-3 * strain);
 }
 
+// Above some 2800 K the fit of the shear modulus of copper is negative.
+TEST(MechanicalThreshold, FlowsAtTheAthermalStressWhereItIsFarTooHot) {
+  ThermalJ2 law = hot_metal(thermal_flows().back().second);
+  law.heating.capacity = 0;
+  const double athermal = std::get<MechanicalThreshold>(law.flow).athermal;
+  for (const double threshold : {0.0, 100e6}) {
+    for (double T = 1300; T < 6000; T += 50) {
+      law.heating.initial = T;
+      point::Driver<ThermalJ2> point(law);
+      point.state.threshold = threshold;
+      for (int n = 0; n < 50; ++n) ASSERT_TRUE(shear_point(point, 1e-4)) << T;
+      // Round-off of the return to the flow stress.
+      EXPECT_GE(von_mises(point.stress), (1 - 1e-9) * athermal) << T;
+      EXPECT_LE(von_mises(point.stress), (T > 2900 ? 1 + 1e-9 : 3) * athermal) << T;
+    }
+  }
+}
+
 // ---- Failure --------------------------------------------------------------------------------------------------------
 
 TEST(JohnsonCookFailure, AHotMetalIsMoreDuctile) {

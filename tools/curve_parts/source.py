@@ -1,5 +1,6 @@
 """Nominal stress and strain from a deck and its history: the columns of force and shortening, area and height; the options
 that name them."""
+import itertools
 import os
 import re
 from dataclasses import dataclass, field
@@ -177,9 +178,9 @@ def shortening(deck, table, axis, words):
     moves = motion_of(deck, axis, times) if deck else {}
     ways = list(moves.values())
     if any(np.ptp(way) > 0 for way in ways):  # a fixed rim gives no shortening
-        low, high = min(ways, key=lambda w: w[-1]), max(ways, key=lambda w: w[-1])
-        other = high if len(ways) > 1 else np.zeros(len(times))
-        return signed(low - other), f"the motion of {', '.join(f'`{m}`' for m in moves)}"
+        pairs = list(itertools.combinations(ways, 2)) or [(ways[0], np.zeros(len(times)))]
+        ends = max(pairs, key=lambda pair: np.abs(pair[0] - pair[1]).max())  # which may return to where they began
+        return signed(ends[0] - ends[1]), f"the motion of {', '.join(f'`{m}`' for m in moves)}"
     places = layers(table, axis, words.layers)
     if places is not None:
         apart = np.abs(places[0][:, -1] - places[0][:, 0])
@@ -299,9 +300,10 @@ def density_of(deck, block, volume, words, found):
 
 def material_density(deck, block):
     """Density of the material of a block, or of the only one, kg/m³."""
-    for keys in deck.sections("Blocks").values():
-        names = (value_in(keys, "Block Names") or "").split()
-        if block is None or block in names or "all" in names:
+    sections = [(keys, (value_in(keys, "Block Names") or "").split()) for keys in deck.sections("Blocks").values()]
+    named = any(block in names for _, names in sections)
+    for keys, names in sections:
+        if block is None or block in names or "all" in names or ("default" in names and not named):
             value = deck.get("Materials", value_in(keys, "Material") or "", "Density")
             return value and float(value)
     return None

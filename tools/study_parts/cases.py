@@ -26,7 +26,7 @@ class Case:
         self.recipe = recipe and os.path.basename(recipe.path)
         if recipe is not None:
             self.texts[self.recipe] = text
-        self.process, self.started = None, 0.0
+        self.process, self.started, self.is_meshed = None, 0.0, True
         self.cost = 1.0  # relative to other runs, for the remaining time
 
     @property
@@ -75,7 +75,10 @@ class Case:
     def start(self, ranks):
         goes_on = self.prepare()
         with open(self.log, "a") as log:
-            if not goes_on and not self.make_mesh(log):
+            status = 0 if goes_on else self.make_mesh(log)
+            if status < 0:  # another time it is made anew
+                return self.put_state(over=False, error=f"strut-mesh was ended by signal {-status}", seconds=0)
+            if status > 0:
                 return self.put_state(over=True, error=last_line(self.log), seconds=0)
             self.started = time.monotonic()
             # A process group of its own: only this program passes on a Ctrl-C from the terminal.
@@ -84,9 +87,14 @@ class Case:
         return None
 
     def make_mesh(self, log):
-        """True if it succeeded."""
-        return not self.recipe or subprocess.run([program("strut-mesh"), self.recipe, self.mesh], cwd=self.folder, stdout=log,
-                                                 stderr=log).returncode == 0
+        """The exit status. Like a run, it is in a process group of its own, and is ended with the study."""
+        if not self.recipe:
+            return 0
+        self.process, self.is_meshed = subprocess.Popen([program("strut-mesh"), self.recipe, self.mesh], cwd=self.folder,
+                                                        stdout=log, stderr=log, start_new_session=True), False
+        status = self.process.wait()
+        self.process, self.is_meshed = None, True
+        return status
 
     def command(self, ranks, *options):
         return [*(mpirun(ranks) if ranks > 1 else []), program("strut"), *options, self.deck]
@@ -98,7 +106,7 @@ class Case:
             trial.folder = os.path.join(folder, "trial")
             trial.prepare()
             with open(trial.log, "a+") as log:
-                if trial.make_mesh(log):
+                if trial.make_mesh(log) == 0:
                     subprocess.run(trial.command(ranks, "--check"), cwd=trial.folder, stdout=log, stderr=log,
                                    env=environment())
                 log.seek(0)
@@ -121,7 +129,7 @@ class Case:
     def stop(self, ranks):
         """Stops strut, which leaves a checkpoint. Open MPI's mpirun would give its ranks only a second, so they get the
         signal directly; MPICH's, whose children they are not, passes it on and waits."""
-        if ranks > 1 and is_open_mpi():
+        if self.is_meshed and ranks > 1 and is_open_mpi():
             subprocess.run(["pkill", "-TERM", "-P", str(self.process.pid), "-x", "strut"])
         else:
             self.process.terminate()
@@ -184,9 +192,9 @@ def run_all(cases, jobs, ranks, tell):
     while (waiting and not stopped) or running:
         while waiting and len(running) < jobs and not stopped:
             case = waiting.pop(0)
-            case.start(ranks)
             running.append(case)
-            if stopped and case.process is not None:  # while its mesh was made
+            case.start(ranks)
+            if stopped and case.process is not None:  # when its mesh had just been made
                 case.stop(ranks)
         over = [case for case in running if case.ended(stopped)]
         running = [case for case in running if case not in over]

@@ -127,6 +127,31 @@ void check_bond_energies(const std::vector<Block>& all, const std::vector<Materi
   }
 }
 
+// Bonds also break by the Damage Model of the other end, so that all blocks of a body lose some.
+void check_laws_that_break(const std::vector<Block>& all, const std::vector<Material>& materials,
+                           const std::vector<NamedDamageModel>& models, Problems& problems) {
+  const auto may_break = [&](const Block& block) {
+    if (block.separate_body) return block.damage_model.has_value();
+    return std::any_of(all.begin(), all.end(), [](const Block& b) { return !b.separate_body && b.damage_model; });
+  };
+  for (const Block& block : all) {
+    if (block.material >= static_cast<int>(materials.size()) || !may_break(block)) continue;
+    const Material& of_block = materials[block.material];
+    const DamageModel* own = damage_model_of(block, models);
+    const bool is_shock = std::holds_alternative<materials::ShockJ2>(of_block.law) && !(own && own->ductility);
+    if (!is_shock && !std::holds_alternative<materials::Hyperelastic>(of_block.law)) continue;
+    const std::string why = is_shock
+                                ? "it has an Equation of State, and what its points hold is not known once they "
+                                  "carry no stress; expected one without"
+                                : "the stress of a Hyperelastic point would follow the jump of its deformation "
+                                  "gradient, and breaks would give energy; expected another law, or no Damage Model";
+    problems.add("Blocks > " + block.name + " > " + (block.damage_model ? damage_model.name : material.name),
+                 "bonds of material '" + of_block.name + "' cannot break" +
+                     (block.damage_model ? "" : " by the Damage Model of another block of the body") + ": " + why +
+                     (block.damage_model ? "" : ", or a Separate Body"));
+  }
+}
+
 void check_damage_model(const Values& section, const Material& material, const NamedDamageModel& named,
                         Problems& problems) {
   const DamageModel& model = named.model;
@@ -142,18 +167,6 @@ void check_damage_model(const Values& section, const Material& material, const N
         section.path_to(damage_model),
         "material '" + material.name + "' cannot crack by model '" + named.name +
             "': expected the Material Model 'Elastic Correspondence' with Formulation 'Quadratic Correspondence'");
-  }
-  if (std::holds_alternative<materials::ShockJ2>(material.law) && !model.ductility) {
-    problems.add(section.path_to(damage_model),
-                 "bonds of material '" + material.name +
-                     "' cannot break: it has an Equation of State, and what its points "
-                     "hold is not known once they carry no stress; expected one without");
-  }
-  if (std::holds_alternative<materials::Hyperelastic>(material.law)) {
-    problems.add(section.path_to(damage_model),
-                 "bonds of material '" + material.name +
-                     "' cannot break: the stress of a Hyperelastic point would follow the jump of its deformation "
-                     "gradient, and breaks would give energy; expected another law, or no Damage Model");
   }
   if (is_known && asks_for_temperature(model) && !knows_temperature(material)) {
     problems.add(section.path_to(damage_model),
@@ -195,6 +208,7 @@ std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& 
   }
   check_overlaps(all, problems);
   check_bond_energies(all, materials, damage_models, problems);
+  check_laws_that_break(all, materials, damage_models, problems);
   return all;
 }
 

@@ -28,6 +28,21 @@ void check_what_acts_on_cracks(const std::vector<Condition>& conditions,
   if (!contact_models.empty()) problems.add("Contact", "given" + unlike);
 }
 
+// Where bonds break, all blocks go through the same rounds of breaks.
+void check_others(const std::vector<Material>& materials, const std::vector<Block>& blocks, Problems& problems) {
+  for (const Block& block : blocks) {
+    if (block.damage_model || block.material >= static_cast<int>(materials.size())) continue;
+    const Material& material = materials[block.material];
+    if (material.name.empty() || stays_while_others_break(material.formulation, material.law)) continue;
+    problems.add(
+        "Blocks > " + block.name + " > Material",
+        "'" + material.name +
+            "' beside a block with a Damage Model: where bonds break with Solver > QuasiStatic, each round of "
+            "breaks would age it by a load step; expected explicit steps (Verlet), or in all blocks a material "
+            "'Elastic', or 'Elastic Correspondence' without Formulation 'Quadratic Correspondence'");
+  }
+}
+
 }  // namespace
 
 void check_quasi_static(const Solver& solver, const std::vector<Condition>& conditions,
@@ -70,7 +85,9 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
         "'Quadratic Correspondence'");
   }
   const bool breaks = std::ranges::any_of(blocks, [](const Block& block) { return block.damage_model.has_value(); });
-  if (breaks && !steps_follow) check_what_acts_on_cracks(conditions, contact_models, problems);
+  if (!breaks || steps_follow) return;
+  check_others(materials, blocks, problems);
+  check_what_acts_on_cracks(conditions, contact_models, problems);
 }
 
 void check_initial_strains(const std::vector<Condition>& conditions, const std::vector<Material>& materials,

@@ -183,8 +183,8 @@ void CentralDifference::choose_load_times(double final_time) {
 
 void CentralDifference::add_loads() {
   if (load_times_.size() == 1) return add_forces(conditions_, load_times_[0], body_);
-  std::vector<Vector> others(body_.owned(), Vector::Zero());
-  std::swap(others, *body_.force_density);
+  const std::vector<Vector> others = *body_.force_density;  // in place: arrays of Python are views of the values
+  std::fill(body_.force_density.begin(), body_.force_density.end(), Vector::Zero());
   for (const double t : load_times_) add_forces(conditions_, t, body_);
   const double part = 1 / static_cast<double>(load_times_.size());
   for_each_point(0, body_.owned(), [&](int i) { body_.force_density[i] = others[i] + part * body_.force_density[i]; });

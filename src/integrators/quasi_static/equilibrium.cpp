@@ -61,6 +61,9 @@ double square_of_side_forces(const Body& body, std::vector<Vector> forces) {
   return sum / static_cast<double>(ranks.sum(static_cast<std::int64_t>(body.owned())));
 }
 
+// In place: arrays of Python are views of the values.
+void put_back(const Field& force_density, Body& body) { std::ranges::copy(force_density, body.force_density.begin()); }
+
 }  // namespace
 
 Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact contact, std::optional<Fracture> fracture)
@@ -79,7 +82,7 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
   const double of_places = round_off_of_places(body);
   const Field of_body = body.force_density;  // of a run that goes on
   round_off_ = few * std::clamp(forces_at_rest(body), of_places, most_cancelled * of_places);
-  body.force_density = of_body;
+  put_back(of_body, body);
   committed_.restore(body);
   looked_at_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) looked_at_[i] = body.current(i);
@@ -123,7 +126,7 @@ void Equilibrium::follow_sides() {
 void Equilibrium::check_values() {
   const std::vector<Vector> kept = body_.force_density;
   add_forces(conditions_, t_ + dt_, body_);
-  body_.force_density = kept;
+  put_back(kept, body_);
   raise_together(body_.domain.communicator, conditions_.first_not_finite());
 }
 
@@ -267,7 +270,7 @@ void Equilibrium::begin_flow_of_cells() {
   for (int i = 0; i < body_.owned(); ++i) {
     outer_before_[i] += inner_[i] - body_.domain.volume(i) * body_.force_density[i];
   }
-  body_.force_density = kept;
+  put_back(kept, body_);
   committed_.restore_materials(body_);
 }
 
@@ -287,7 +290,7 @@ std::int64_t Equilibrium::break_bonds() {
   const std::int64_t broken = body_.domain.communicator.sum(broken_bonds(body_) - before) / 2;
   if (broken == 0) {
     committed_.restore_materials(body_);  // to the last bit, whether a checkpoint is written here or not
-    body_.force_density = with_loads;
+    put_back(with_loads, body_);
     return 0;
   }
   left_.resize(body_.owned());

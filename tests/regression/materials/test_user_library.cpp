@@ -71,6 +71,40 @@ TEST(UserLibrary, IsTheBuiltInLawInEachFormulation) {
   }
 }
 
+// Also in a body that flies before it is struck, and at points that lose bonds.
+TEST(UserLibrary, HasTheTimeOfTheRun) {
+  const RunFolder folder(Lattice{.nx = 3, .ny = 3, .nz = 4});
+  const std::string timed = changed(from_library("strut"), key("State Variables", "1"), key("State Variables", "2"));
+  Parts parts = striking(timed, "Correspondence");
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-100") +
+                     section("wall", key("Type", "Rigid Plane") + key("Point", "0 0 -0.1e-3") + key("Normal", "0 0 1"));
+  const auto times_of = [&](const Parts& of) {
+    Simulation run(folder, of);
+    const Ledger last = run.go();
+    EXPECT_EQ(last.fracture > 0, !of.damage.empty());
+    const double end = last.time;
+    const MaterialBlock& block = run.body().blocks[0];
+    double least = end, most = 0;
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      const double time = block.state_of<materials::UserLaw>(k).time;
+      least = std::min(least, time), most = std::max(most, time);
+    }
+    return std::pair(-run.world().max(-least) / end, run.world().max(most) / end);
+  };
+  for (const bool breaks : {false, true}) {
+    if (breaks) {
+      parts.conditions = along("pull", "Initial Velocity", "all", "z", "2e4*(z - 2e-3)*(1 + 300*x)");
+      parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.02"));
+      parts.blocks =
+          changed(parts.blocks, key("Material", "copper"), key("Material", "copper") + key("Damage Model", "brittle"));
+    }
+    const auto [least, most] = times_of(parts);
+    // Round-off of a sum of some hundred steps. A point that carries nothing more is not called.
+    EXPECT_NEAR(breaks ? 1 : least, 1, 1e-12);
+    EXPECT_NEAR(most, 1, 1e-12) << breaks;
+  }
+}
+
 std::string error_of(const std::string& material) {
   const RunFolder folder;
   Parts parts;

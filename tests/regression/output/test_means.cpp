@@ -148,5 +148,27 @@ TEST(Means, AndSumsOfAProbe) {
   EXPECT_EQ(table.at("Sum_Velocity_Z(tip)"), table.at("Mean_Velocity_Z(tip)"));
 }
 
+// The work of a crack is a variable of points, and no column of a crack that is watched.
+TEST(Means, OfTheWorkOfACrackAtAProbe) {
+  const RunFolder folder;
+  Parts parts;
+  parts.materials = changed(copper(), key("Density", "8930"),
+                            key("Density", "8930") + key("Formulation", "Quadratic Correspondence"));
+  parts.damage = section("crack", key("Damage Model", "Cohesive Crack") + key("Fracture Energy", "1e3"));
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") +
+                                      key("Horizon Factor", "1.75") + key("Damage Model", "crack"));
+  parts.conditions = along("pull", "Initial Velocity", "all", "z", "3e3*(z - 3e-3)");
+  parts.times = key("Final Time", "1e-6");
+  parts.history = key("Filename", (folder / "history.csv").string()) + key("Frequency", "1") +
+                  section("Variables", key("Crack_Work(tip)", "true") + key("Mean_Crack_Work(tip)", "true")) +
+                  section("Probes", section("tip", key("Point", "2e-3 2e-3 3e-3")));
+  testing::internal::CaptureStdout();
+  run(folder.write("deck.xml", parts.text()), folder.world);
+  testing::internal::GetCapturedStdout();
+  const Table table = read_history(folder / "history.csv");
+  EXPECT_GT(table.at("Crack_Work(tip)").back(), 0);
+  EXPECT_EQ(table.at("Crack_Work(tip)"), table.at("Mean_Crack_Work(tip)"));
+}
+
 }  // namespace
 }  // namespace strut::regression

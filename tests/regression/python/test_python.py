@@ -173,6 +173,32 @@ class Runs(InFolder):
         moved = run.whole("Displacement").reshape(-1, 3)[:, 2]
         self.assertAlmostEqual(moved.min() / -1e-6, 1, 9)
 
+    def test_an_array_of_a_field_is_that_of_the_present_step(self):
+        def follow(deck, mesh):
+            run = strut.Run(deck, mesh)
+            run.advance(steps=1)
+            array = run.fields["Force_Density"]
+            for _ in range(3):
+                run.advance(steps=1)
+                self.assertTrue(np.shares_memory(array, run.fields["Force_Density"]))
+
+        held = block.deck()["Boundary Conditions"]
+        slow = {**held, "top": {**held["top"], "Type": "Prescribed Displacement", "Value": "-1e-6*t"}}
+        follow(block.deck(Solver={"Final Time": 1.0, "QuasiStatic": {"Number of Load Steps": 4}}, **{"Boundary Conditions": slow}),
+               block.mesh())
+        # A load that changes, with substeps at a stiff end.
+        places = SPACING * np.argwhere(np.ones((4, 4, 8)))
+        ends = {"block": np.flatnonzero(places[:, 2] > SPACING), "stiff": np.flatnonzero(places[:, 2] <= SPACING)}
+        mesh = strut.mesh(places, ends, volumes={name: np.full(len(points), SPACING**3) for name, points in ends.items()})
+        metal = block.deck()["Materials"]["metal"]
+        horizon = {"Horizon Factor": 1.75}
+        follow(block.deck(Materials={"metal": metal, "stiff": {**metal, "Young's Modulus": 8e11}},
+                          Blocks={name: {"Block Names": name, "Material": material, **horizon}
+                                  for name, material in (("block", "metal"), ("stiff", "stiff"))},
+                          Solver={"Final Time": 4e-5, "Verlet": {"Subcycling": True}}, History=None,
+                          **{"Boundary Conditions": {"pull": {"Type": "Body Force", "Coordinate": "z", "Value": "-1e9*sin(1e6*t)"}}}),
+               mesh)
+
     def test_steps_go_on_from_equilibria(self):
         conditions = block.deck()["Boundary Conditions"]
         top = {**conditions["top"], "Type": "Prescribed Displacement", "Value": "-1e-6*t"}

@@ -694,6 +694,37 @@ TEST(DeckOfPeridigm, DamageThatIsNotKnownIsRefused) {
       << folder.error(warmed);
 }
 
+// A block of a second material, without a Damage Model, in the same deck.
+std::string beside(const std::string& deck, const std::string& material, const std::string& more = "") {
+  const std::string first = "    glass:";
+  const std::string with =
+      changed(deck, first,
+              "    soft: {Density: 1100.0, Bulk Modulus: 5.0e6, Shear Modulus: 1.0e6, " + material + "}\n" + first);
+  return changed(changed(with, "\"all\"", "\"block_1\""), "  Blocks:\n",
+                 "  Blocks:\n    pad: {Block Names: \"block_7\", Material: \"soft\", Horizon: 0.1" + more + "}\n");
+}
+
+// Bonds break by the Damage Model of the other end, too; in equilibria each round of breaks ages all blocks.
+TEST(DeckOfPeridigm, BlocksWithoutADamageModelLoseBondsToThoseThatHaveOne) {
+  const DeckFolder folder;
+  const std::string rubber = "Material Model: \"Hyperelastic\"", own = ", Separate Body: true";
+  const auto refused = [&](const std::string& text, const std::string& problem) {
+    const std::string error = folder.error(text);
+    EXPECT_NE(error.find("\n  " + problem), std::string::npos) << problem << "\nin " << error;
+  };
+  refused(beside(fracturing, rubber),
+          "Blocks > pad > Material: bonds of material 'soft' cannot break by the Damage Model of another block of the "
+          "body: the stress of a Hyperelastic point");
+  EXPECT_NO_THROW(folder.read(beside(fracturing, rubber, own)));
+  const std::string still =
+      changed(changed(fracturing, "Verlet: {Safety Factor: 0.7}", "QuasiStatic: {Number of Load Steps: 1}"),
+              "Damage Model: \"growing\"", "Damage Model: \"brittle\"");
+  refused(beside(still, rubber, own), "Blocks > pad > Material: 'soft' beside a block with a Damage Model: where");
+  refused(beside(still, "Material Model: \"Elastic Plastic Correspondence\", Yield Stress: 1.0e5"),
+          "Blocks > pad > Material: 'soft' beside a block with a Damage Model: where");
+  EXPECT_NO_THROW(folder.read(beside(still, "Material Model: \"Elastic\"")));
+}
+
 // Ours, in the same deck.
 TEST(DeckOfPeridigm, BondEnergiesAreThoseOfOrdinarySolids) {
   const DeckFolder folder;

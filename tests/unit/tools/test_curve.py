@@ -10,7 +10,7 @@ from tool_test import InFolder
 
 import numpy as np
 import netCDF4
-from curve_parts import extent, measures, shock
+from curve_parts import extent, measures, shock, source
 from decks import Deck, Recipe
 
 E, YIELD, UNLOADING = 100e6, 2e6, 150e6  # Pa
@@ -267,6 +267,20 @@ class Runs(InFolder):
                                    "Stress (Pa) of Reaction_Z(bottom)", "Energy (J/m3)"])
         self.assertEqual(len(rows), 1 + len(STRAIN))
         self.assertGreater((self.folder / "block-curve.png").stat().st_size, 10000)
+
+    def test_a_plate_that_returns_shortens_over_the_foot_that_is_held(self):
+        fixed = """<Parameter name="Type" type="string" value="Prescribed Displacement"/>
+          <Parameter name="Coordinate" type="string" value="z"/><Parameter name="Value" type="string" value="%s"/></ParameterList>"""
+        top = '<ParameterList name="top">'
+        held = f'<ParameterList name="foot">{fixed % 0}<ParameterList name="rim">{fixed % "1e-9*t"}'
+        returns = DECK.replace("-1e-2*t", "-1e-2*t*(1-t)").replace(top, held + top)
+        (self.folder / "block.xml").write_text(returns.replace('value="all"', 'value="default"'))  # the density, too
+        times = np.linspace(0, 1, 11)
+        self.history({"Time": times, "Reaction_Z(top)": -times, "Reaction_Z(foot)": times})
+        self.made("block.xml")
+        strain = [float(row[1]) for row in self.table("block-curve.csv")[1:]]
+        np.testing.assert_allclose(strain, 0.5 * times * (1 - times), atol=1e-7)  # of 20 mm; the rim moves by 1e-9 m
+        self.assertEqual(source.material_density(Deck(str(self.folder / "block.xml")), "foam"), 4000)
 
     def test_the_blow_of_the_first_step_does_not_count(self):
         force = 4e-5 * stress_at(STRAIN)

@@ -154,6 +154,22 @@ class Studies(InFolder):
         self.assertEqual([(r["Mean_Velocity_Z"], r["error"]) for r in self.rows()],
                          [("2", ""), ("", "deck.xml: error: it was expected")])
 
+    def test_ctrl_c_while_a_mesh_is_made_ends_it_and_leaves_the_run_to_be_made(self):
+        programs = self.programs()
+        (self.folder / "mesh").write_text('#!/bin/sh\ntouch ../begun; [ -e ../again ] || sleep 100\necho made > "$2"\n')
+        (self.folder / "bar.study").write_text(STUDY.replace("10 20", "10").replace("1e-3 2e-3", "1e-3").split("plot")[0])
+        words = [TOOLS / "study", "bar.study", "out"]
+        first = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, cwd=self.folder, env={**os.environ, **programs},
+                                 start_new_session=True)
+        while not (self.folder / "out/begun").exists():
+            time.sleep(0.01)
+        os.killpg(first.pid, signal.SIGINT)  # as a terminal does, to all that it shows
+        self.assertIn("stopped by a signal", first.communicate(timeout=20)[1])
+        self.assertFalse(json.loads((self.folder / "out/speed=10,spacing=1e-3/state.json").read_text())["over"])
+        (self.folder / "out/again").touch()
+        self.assertEqual(self.study("bar.study", "out", **programs)[0], 0)
+        self.assertEqual([(r["Mean_Velocity_Z"], r["error"]) for r in self.rows()], [("1", "")])
+
     def programs(self, strut="#!/bin/sh\nprintf 'Time,Mean_Displacement_Z,Mean_Velocity_Z\\n0,2,1\\n' > bar.csv\n"):
         """Stand for strut, here one that writes a history, and for strut-mesh."""
         found = {}
