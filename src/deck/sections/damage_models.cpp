@@ -55,9 +55,7 @@ const RealKey averaging_radius({.name = "Averaging Radius",
                                 .unit = "m",
                                 .range = not_negative,
                                 .fallback = "0",
-                                .meaning = "R of a ball in the reference mesh; the criterion's growth is averaged over "
-                                           "it, through bonds that hold. From two spacings on the work to tear depends "
-                                           "less on the spacing. 0: no average."});
+                                .meaning = "R of the ball over which the criterion's growth is averaged; 0: none."});
 
 const RealKey failure_strain({.name = "Failure Strain", .range = positive, .meaning = "ε_f."});
 
