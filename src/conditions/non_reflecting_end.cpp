@@ -42,14 +42,16 @@ NonReflectingEnd NonReflectingEnd::on(std::vector<int> points, int at, const Bod
 // Where ends meet, they act one after the other, which is the drag of both together except for the product of their
 // rates over a step, and as stable.
 void NonReflectingEnd::change_velocities(VelocityUpdate& update) const {
+  const auto& scales = update.body.mass_scale;  // the traction is that of the material, whatever mass was added
   for (const auto& [i, along, across] : drags) {
+    const double slower = scales.empty() ? 1 : 1 / scales[i];
     const Vector before = update.body.previous_velocity[i], change = update.body.velocity[i] - before;
     const double speed = normal.dot(before), push = normal.dot(change), dt = update.steps.of_impulse(i);
     const Vector sliding = before - speed * normal, shear = change - push * normal;
     Vector& v = update.body.velocity[i];
     const Vector before_end = v;
-    v = dragged(speed, push, along, dt) * normal;
-    for (int c = 0; c < 3; ++c) v[c] += dragged(sliding[c], shear[c], across, dt);
+    v = dragged(speed, push, slower * along, dt) * normal;
+    for (int c = 0; c < 3; ++c) v[c] += dragged(sliding[c], shear[c], slower * across, dt);
     update.record(i, v - before_end);
   }
 }
