@@ -57,6 +57,13 @@ void set_reaches(RigidTool& tool, const Times& times, const Body& body) {
   tool.set_reaches(times.begin, body, BodyAt::present);
 }
 
+// For bodies that an Initial Displacement has moved: the mesh may lie in a tool.
+void set_reaches_from_here(double t, Scene& scene) {
+  scene.conditions.visit([&]<class Type>(Type& one) {
+    if constexpr (std::is_same_v<Type, RigidTool>) one.set_reaches(t, scene.body, BodyAt::present);
+  });
+}
+
 template <ConditionType Type>
 void put(const Type& prototype, const std::string& name, std::vector<int> points, int place, const Times& times,
          Scene& scene) {
@@ -264,6 +271,7 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
     scene.body.domain.halo.exchange_places(scene.body.domain.sites);
   }
   raise_together(communicator, problems.text(deck.file.string()));
+  if (displaces && mesh_time == deck.solver.initial_time) set_reaches_from_here(mesh_time, scene);
   check_open_ends(deck, scene.conditions, scene.body, problems);
   if (deck.next_solver) scene.warnings += look_at_next_steps(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));

@@ -205,14 +205,17 @@ TEST(RigidTool, BeltAcceleratesWhatSlidesOnIt) {
 
 // A block flies 0.7 spacings to a wall that its face meets all at once, with points in the middles of cells and at
 // nodes, after the way of its face and not of its points: within a step, which takes it a few hundredths of a spacing.
+// So does a block whose mesh lies in the wall, and that begins displaced.
 TEST(RigidTool, IsMetWhereTheFaceOfABodyIs) {
   const RunFolder folder;
   const double way = 0.7e-3, speed = 227;
-  for (const std::string points : {"Elements", "Nodes"}) {
+  for (const auto& [points, is_lifted] : {std::pair("Elements", false), {"Nodes", false}, {"Elements", true}}) {
     Parts parts;
     parts.points = points;
-    parts.conditions =
-        along("flight", "Initial Velocity", "all", "z", "-227") + rigid_plane("wall", "0 0 -0.7e-3", "0 0 1");
+    if (is_lifted) parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+    parts.conditions = along("flight", "Initial Velocity", "all", "z", "-227") +
+                       (is_lifted ? along("lift", "Initial Displacement", "all", "z", "9.3e-3") : "") +
+                       rigid_plane("wall", is_lifted ? "0 0 8.6e-3" : "0 0 -0.7e-3", "0 0 1");
     Simulation run(folder, parts);
     double before = 0, touched = 0, step = 0, stopped = 0;
     run.go([&](const Ledger& now) {
@@ -222,7 +225,7 @@ TEST(RigidTool, IsMetWhereTheFaceOfABodyIs) {
     });
     EXPECT_NEAR(touched, way / speed, step) << points;
     EXPECT_LT(speed * step, 0.1e-3);
-    EXPECT_EQ(run.world().sum(stopped), points == "Nodes" ? 25 : 16) << points;
+    EXPECT_EQ(run.world().sum(stopped), parts.points == "Nodes" ? 25 : 16) << points;
   }
 }
 
