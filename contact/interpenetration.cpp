@@ -193,13 +193,13 @@ std::optional<Interpenetration> find_interpenetration(const Domain& domain, cons
 
 std::vector<Overlap> overlapping_blocks(const Domain& domain) {
   const int blocks = static_cast<int>(domain.blocks.size());
-  const std::vector<Extent> extents = extents_of_blocks(domain, &Domain::reference);
+  const std::vector<Extent> extents = extents_of_blocks(domain, &Domain::current);
   std::vector<Overlap> all;
   for (int a = 0; a < blocks; ++a) {
     for (int b = a + 1; b < blocks; ++b) {
       if (domain.blocks[a].body == domain.blocks[b].body) continue;
       const Eigen::AlignedBox3d overlap = extents[a].box.intersection(extents[b].box);
-      if (!overlap.isEmpty()) all.push_back({a, b, points_inside(domain, a, b, overlap, &Domain::reference)});
+      if (!overlap.isEmpty()) all.push_back({a, b, points_inside(domain, a, b, overlap, &Domain::current)});
     }
   }
   return all;

@@ -22,8 +22,7 @@ struct Interpenetration {
 // the nearest points of that body (docs/theory.md). Blocks whose bounding boxes are disjoint cost only a reduction.
 std::optional<Interpenetration> find_interpenetration(const Domain& domain, const Contact& contact, double limit);
 
-// Two blocks of different bodies, and this rank's points of them that are inside the other block in the reference
-// state.
+// Two blocks of different bodies, and this rank's points of them that are inside the other block now.
 struct Overlap {
   int first, second;
   std::vector<int> points;

@@ -7,7 +7,7 @@ namespace strut::regression {
 namespace {
 
 // Two cubes of 5³ points, the second one so far from the first along each axis, m.
-std::string warnings(double apart, bool separate, const std::string& formulation) {
+std::string warnings(double apart, bool separate, const std::string& formulation, const std::string& conditions = "") {
   const RunFolder folder;
   folder.write("points.txt",
                cubes(1, Vector::Zero(), 5, 5, 5, 1e-3) + cubes(2, Vector::Constant(apart), 5, 5, 5, 1e-3));
@@ -20,6 +20,8 @@ std::string warnings(double apart, bool separate, const std::string& formulation
                          key("Separate Body", separate ? "true" : "false"));
   parts.contact = contact_of({{"block_1", "block_2"}}, "1e-3", "1e11");
   if (!separate) parts.contact.clear();
+  parts.conditions = conditions;
+  if (!conditions.empty()) parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
   const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
   return told_at_the_start(deck, folder.world).warnings;
 }
@@ -108,6 +110,16 @@ TEST(Overlaps, OfSeparateBodiesAreTold) {
   for (const double apart : {4.99e-3, 5e-3}) {
     EXPECT_EQ(warnings(apart, true, "").find("inside of the other one"), std::string::npos) << apart;
   }
+}
+
+TEST(Overlaps, AreThoseOfTheStart) {
+  const auto told = [](double apart, const std::string& by) {
+    return warnings(apart, true, "", along("lift", "Initial Displacement", "block_2", "xyz", by))
+               .find("are inside of the other one at the start") != std::string::npos;
+  };
+  EXPECT_FALSE(told(1.3e-3, "4e-3"));
+  EXPECT_TRUE(told(1.3e-3, "1e-3"));
+  EXPECT_TRUE(told(6e-3, "-3e-3"));
 }
 
 }  // namespace
