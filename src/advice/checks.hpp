@@ -129,8 +129,8 @@ std::string contact_at_mirrors(const Situation& situation);
 // impact, by their initial velocities, exceeds the pressure that contact withstands before points pass each other;
 // for parts of one body whose contact withstands less than the flow stress. Throws Error on all ranks if contact
 // could not take the energy of the impact even if all points pressed on all others within reach, and no tool or
-// third block may stop them; that is only a warning if the deck continues beyond its limits (Watch > Beyond
-// Limits).
+// third block may stop them, and no prescribed motion or load moves them; that is only a warning if the deck continues
+// beyond its limits (Watch > Beyond Limits).
 std::string weak_contacts(const Situation& situation);
 
 // ---- unheld_bodies.cpp

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <type_traits>
 #include <utility>
 
 #include "advice/checks.hpp"
@@ -218,6 +219,20 @@ bool may_be_stopped(const Scene& scene, const std::vector<contact::Interaction>&
   return !scene.tools.empty() || std::any_of(interactions.begin(), interactions.end(), with_another);
 }
 
+// True if a prescribed motion or a load may end before they meet.
+bool may_be_spared(const Body& body, const Conditions& conditions, int a, int b) {
+  double driven = 0;
+  conditions.visit([&]<class Type>(const Type& one) {
+    if constexpr (std::is_same_v<Type, PrescribedMotion> || std::is_same_v<Type, BodyForce>) {
+      for (const int i : one.points) {
+        const int block = body.domain.cloud.blocks[i];
+        if (block == a || block == b) driven = 1;
+      }
+    }
+  });
+  return body.domain.communicator.max(driven) > 0;
+}
+
 // For parts of one body, which may be pressed on each other at any time: contact must withstand the flow stress of the
 // softer one.
 std::string weakness_when_pressed(const contact::Law& law, const Side& a, const Side& b) {
@@ -256,7 +271,8 @@ std::string weak_contacts(const Situation& situation) {
       text = weakness_when_pressed(model.law, a, b);
     else if (!scene.quasi_static)
       text = weakness(model.law, a, b, approach(trajectories[first], trajectories[second], duration), surely);
-    if (surely && deck.watch.stops && !may_be_stopped(scene, interactions, first, second))
+    if (surely && deck.watch.stops && !may_be_stopped(scene, interactions, first, second) &&
+        !may_be_spared(scene.body, scene.conditions, first, second))
       problems.add("Contact", text);
     if (text.empty()) text = far_reach(model.law, a, b);
     if (text.empty() && !scene.quasi_static) text = stiffness_of_short_touches(model.law, a, b);
