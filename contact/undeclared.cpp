@@ -1,6 +1,8 @@
 #include "contact/undeclared.hpp"
 
+#include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "contact/own_surface.hpp"
@@ -65,6 +67,39 @@ std::vector<Seen> at_surfaces(const Domain& domain) {
   return points;
 }
 
+void shift(Seen& point, const Vector& now, const Vector& reference) {
+  Eigen::Map<Vector>(point.current) += now, Eigen::Map<Vector>(point.reference) += reference;
+}
+
+// Moves points by whole periods to within one from the origin: bodies may have passed several.
+void fold(const Domain& domain, std::vector<Seen>& points) {
+  for (const Period& period : domain.periods) {
+    const Vector along = period.length * Vector::Unit(period.axis), now = domain.halo.stretch().cwiseProduct(along);
+    for (Seen& point : points) {
+      const double count = -std::floor(point.current[period.axis] / now[period.axis]);
+      shift(point, count * now, count * along);
+    }
+  }
+}
+
+// The images of folded points behind periodic sides within `reach` of all of them.
+std::vector<Seen> images_of(const Domain& domain, std::span<const Seen> points, double reach) {
+  std::vector<Seen> all;
+  if (domain.periods.empty()) return all;
+  Eigen::AlignedBox3d cell;
+  for (const Seen& point : points) cell.extend(place_of(point));
+  cell = common_box(cell, domain.communicator);
+  const Images images(domain.periods, 0);
+  for (const int image : images.of_body(0)) {
+    const Reflection& by = images[image];
+    for (Seen point : points) {
+      shift(point, by.stretched(domain.halo.stretch()).shift, by.shift);
+      if (cell.squaredExteriorDistance(place_of(point)) <= reach * reach) all.push_back(point);
+    }
+  }
+  return all;
+}
+
 // True if the point lies behind the face at the node `face`: within the cone of this cosine around the inward normal,
 // so that points beside an edge or a corner of that body do not count.
 bool is_behind(const Seen& point, const Seen& face) {
@@ -125,13 +160,16 @@ std::optional<Undeclared> find_undeclared(const Domain& domain, const Contact& c
   const Uncovered uncovered(domain, contact);
   if (!uncovered.any() || hardly_moved(domain)) return std::nullopt;
   std::vector<Seen> all = at_surfaces(domain);
+  fold(domain, all);
   const std::size_t mine = all.size();
   std::vector<Vector> places;
   double spacing = 0;
   for (const Seen& point : all) places.push_back(place_of(point)), spacing = std::max(spacing, point.spacing);
   const Communicator& ranks = domain.communicator;
   const double reach = near * ranks.max(spacing);
-  const auto others = from_nearby_ranks(box_around(places), places, std::span<const Seen>(all), reach, ranks);
+  const Eigen::AlignedBox3d box = box_around(places);
+  for (const Seen& image : images_of(domain, all, reach)) all.push_back(image), places.push_back(place_of(image));
+  const auto others = from_nearby_ranks(box, places, std::span<const Seen>(all), reach, ranks);
   for (const Seen& point : others) all.push_back(point), places.push_back(place_of(point));
   Undeclared found = passed_points(domain, uncovered, mine, all, places, reach);
   found.points = ranks.sum(found.points);

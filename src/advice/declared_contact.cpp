@@ -23,6 +23,20 @@ bool declared(const std::vector<contact::Interaction>& interactions, int a, int 
   });
 }
 
+// The first time at which blocks meet, or one of them an image of the other one period away.
+std::optional<double> first_meeting(const Domain& domain, const Trajectory& a, const Trajectory& b, double duration) {
+  std::optional<double> first = meeting_time(a, b, duration);
+  if (domain.periods.empty()) return first;
+  const Images images(domain.periods, 0);
+  for (const int image : images.of_body(0)) {
+    Trajectory moved = b;
+    moved.places.translate(images[image].stretched(domain.halo.stretch()).shift);
+    const auto time = meeting_time(a, moved, duration);
+    if (time) first = std::min(*time, first.value_or(*time));
+  }
+  return first;
+}
+
 }  // namespace
 
 std::string undeclared_contacts(const Situation& situation) {
@@ -36,7 +50,7 @@ std::string undeclared_contacts(const Situation& situation) {
     for (int b = a + 1; b < static_cast<int>(trajectories.size()); ++b) {
       const double gap = trajectories[a].places.exteriorDistance(trajectories[b].places);
       if (declared(interactions, a, b) || may_be_bonded(domain.blocks[a], domain.blocks[b], gap)) continue;
-      const auto time = meeting_time(trajectories[a], trajectories[b], duration);
+      const auto time = first_meeting(domain, trajectories[a], trajectories[b], duration);
       if (!time) continue;
       text << "WARNING: blocks " << domain.cloud.block_names[a] << " and " << domain.cloud.block_names[b]
            << " meet at about t = " << start + *time

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 
+#include "contact/undeclared.hpp"
 #include "regression/bodies.hpp"
 #include "regression/checkpoints.hpp"
 #include "run/simulation.hpp"
@@ -316,6 +317,27 @@ TEST(PeriodicContact, MeetsTheImageBehindTheSide) {
     for (std::size_t i = 0; i < there.size() / 2; ++i) moved = std::max(moved, there[i].norm());
     EXPECT_GT(moved, 1e-4);
     EXPECT_LT(difference(across, there), 1e-9);  // places are rounded otherwise by the period
+  }
+}
+
+// Blocks without contact pass through each other behind the side.
+TEST(PeriodicContact, IsMissedWhereNoneIsDeclared) {
+  for (const bool across : {true, false}) {
+    const RunFolder folder;
+    const double first = across ? 0.2e-3 : 10.7e-3;
+    folder.write("points.txt", cubes(1, {first, 0, 0}, 4, 4, 4, 1e-3) + cubes(2, {6e-3, 0, 0}, 4, 4, 4, 1e-3));
+    Parts parts = thrown_block("");
+    parts.times = key("Final Time", "2e-5");
+    parts.conditions = along("flight", "Initial Velocity", "block_2", "x", "100");
+    if (across) parts.conditions += sides("x", "0", "10.5e-3");
+    const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+    EXPECT_NE(told_at_the_start(deck, folder.world).warnings.find("meet at about t = 1.7e-05 s"), std::string::npos)
+        << told_at_the_start(deck, folder.world).warnings;
+    Simulation run(folder, parts);
+    run.go();
+    const auto found = contact::find_undeclared(run.scene.body.domain, run.scene.contact);
+    ASSERT_TRUE(found) << across;
+    EXPECT_GT(found->points, 30) << across;
   }
 }
 
