@@ -83,7 +83,8 @@ class Contact {
   // velocities from `before` to `after`.
   FrictionWork friction_work(double impulse_time, std::span<const Vector> before, std::span<const Vector> after) const;
 
-  // Adds this rank's forces on mirror images of points by the couples of friction, N, to those of domain.mirrors.
+  // Adds this rank's forces on mirror images of points by the couples of friction, N, to those of domain.mirrors; of
+  // all contact through periodic sides to those of domain.periods.
   void add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const;
 
   // Adds `amount` to the entry of each of this rank's points on which the last contact forces, of surfaces or points,

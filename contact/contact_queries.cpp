@@ -89,7 +89,17 @@ Vector Contact::force(const Domain& domain, int first, int second) const {
 }
 
 void Contact::add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const {
-  for (const ContactPair& pair : contact_pairs_) pair.couples.add_mirror_reactions(domain, of_mirrors);
+  for (const ContactPair& pair : contact_pairs_) {
+    pair.couples.add_mirror_reactions(domain, of_mirrors);
+    if (domain.periods.empty()) continue;
+    const Vector normal = pair.surfaces ? pair.surfaces->normal_force_through_sides(pair.pairs)
+                                        : normal_force_through_sides(std::get<PairLaw>(pair.model.law), pair.pairs);
+    const Vector sum = normal + pair.pairs.friction_through + pair.couples.through_sides(domain);
+    for (std::size_t m = 0; m < domain.periods.size(); ++m) {
+      const int axis = domain.periods[m].axis;
+      of_mirrors[m][axis] += sum[axis];
+    }
+  }
 }
 
 FrictionWork Contact::friction_work(double impulse_time, std::span<const Vector> before,

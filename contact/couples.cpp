@@ -1,5 +1,7 @@
 #include "contact/couples.hpp"
 
+#include <cmath>
+
 #include "topology/mirror_reactions.hpp"
 
 namespace strut::contact {
@@ -96,6 +98,24 @@ void Couples::add_mirror_reactions(const Domain& domain, std::vector<Vector>& of
   };
   const std::vector<Vector> reactions = mirror_reactions(domain, {on_body, of_images});
   for (std::size_t m = 0; m < reactions.size(); ++m) of_mirrors[m] += reactions[m];
+}
+
+// The forces of a couple cancel: from the side of its point, those on the points behind a side go through it.
+Vector Couples::through_sides(const Domain& domain) const {
+  Vector sum = Vector::Zero();
+  if (forces_.empty() || domain.periods.empty()) return sum;
+  std::vector<Vector> above(domain.owned + domain.ghosts, Vector::Zero());
+  for (const ImagePoint& image : domain.halo.images()) {
+    for (const Period& period : domain.periods)
+      above[image.ghost][period.axis] = std::round(image.by.period[period.axis] / period.length);
+  }
+  for (const int i : affected_) {
+    domain.families.for_each(i, [&](int j) {
+      if (!above[j].isZero(0) && !twists_[j].turn.isZero(0))
+        sum += domain.volume(i) * above[j].cwiseProduct(density(domain, i, j));
+    });
+  }
+  return sum;
 }
 
 }  // namespace strut::contact

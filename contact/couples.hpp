@@ -33,6 +33,9 @@ class Couples {
   // Adds this rank's part of what the images exert on bodies by the last forces, N, to that of each of domain.mirrors.
   void add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const;
 
+  // The last forces through periodic sides across each axis, N: this rank's part.
+  Vector through_sides(const Domain& domain) const;
+
   // Calls visit(i, force in N) for the last forces on this rank's points.
   template <class Visit>
   void for_each_force(const Visit& visit) const {

@@ -181,6 +181,7 @@ Friction friction_forces(const Kinematics& kinematics, const L& law, double coef
   const std::vector<Vector> none(pairs.owned.size(), Vector::Zero());
   Friction friction{none, none};
   const std::vector<Slider> all = sliders(kinematics, law, pairs, loads, couples, neighborhoods);
+  pairs.friction_through.setZero();
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     const Slider& here = all[k];
     for_each_touch(pairs, law, k, [&](const Touch<L>& touch) {
@@ -194,6 +195,7 @@ Friction friction_forces(const Kinematics& kinematics, const L& law, double coef
       const Vector force =
           friction_force(coefficient, load, velocity, normal, here.mobility_at(arm) + there.mobility_at(other_arm), dt);
       friction.forces[k] += force;
+      pairs.friction_through += 0.5 * pairs.through_sides(touch.partner, force);
       friction.couples[k] += arm.cross(force);
     });
   }
@@ -248,6 +250,21 @@ void for_each_normal_force(const PairLaw& law, const Pairs& pairs,
         }
       },
       law);
+}
+
+// A pair over a side is seen from either end, once with an image above and once with one below.
+Vector normal_force_through_sides(const PairLaw& law, const Pairs& pairs) {
+  Vector sum = Vector::Zero();
+  std::visit(
+      [&](const auto& one) {
+        for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+          for_each_touch(pairs, one, k, [&](const auto& touch) {
+            sum -= 0.5 * pairs.through_sides(touch.partner, touch.force() * touch.direction);
+          });
+        }
+      },
+      law);
+  return sum;
 }
 
 void add_springs(const PairLaw& law, const Pairs& pairs, std::span<Tensor> springs) {

@@ -56,6 +56,9 @@ void add_friction(const Kinematics& kinematics, const PairLaw& law, double coeff
 void for_each_normal_force(const PairLaw& law, const Pairs& pairs,
                            const std::function<void(std::size_t, Vector)>& visit);
 
+// After add_normal_forces. The sum of these forces through periodic sides across each axis, N: this rank's part.
+Vector normal_force_through_sides(const PairLaw& law, const Pairs& pairs);
+
 // Collective, after add_normal_forces. Adds the tangent stiffness of the touching pairs, times a field of the body's
 // owned points, to result (N/m times the field's unit). The rotation of a pair's direction is neglected.
 void add_stiffness(const PairLaw& law, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result);

@@ -101,10 +101,14 @@ void Surfaces::add_friction(const Kinematics& kinematics, const Sliding& sliding
   }
   exchange_records(pairs, exchanges);
   if (!sliding.is_trial) couples.add_forces(kinematics.domain, own, turned, force_density);
+  pairs.friction_through.setZero();
   if (!any_touches_) return;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
-      friction[k] += pairs.sites[k].volume() * Smoothing(reach).value(distance2) * exchanges[partner].reaction(-eta);
+      const double weight = pairs.sites[k].volume() * Smoothing(reach).value(distance2);
+      const Vector force = weight * exchanges[partner].reaction(-eta);
+      friction[k] += force;
+      pairs.friction_through += pairs.through_sides(partner, force);
     });
     force_density[pairs.owned[k]] += friction[k] / points_[places_[k]].volume;
   }

@@ -261,6 +261,18 @@ void Surfaces::for_each_normal_force(const Pairs& pairs, const std::function<voi
   }
 }
 
+// Points and those that feel them, each pair once.
+Vector Surfaces::normal_force_through_sides(const Pairs& pairs) const {
+  Vector sum = Vector::Zero();
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+      const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance2);
+      sum += pairs.through_sides(partner, facing_[partner].push * slope * eta);
+    });
+  }
+  return sum;
+}
+
 void Surfaces::add_springs(const Pairs& pairs, std::span<Tensor> springs) const {
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Tensor sum = Tensor::Zero();

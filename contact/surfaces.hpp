@@ -66,6 +66,7 @@ class Surfaces {
   ForceResult add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, bool is_trial, Pairs& pairs,
                                 std::vector<Vector>& force_density);
   void for_each_normal_force(const Pairs& pairs, const std::function<void(std::size_t, Vector)>& visit) const;
+  Vector normal_force_through_sides(const Pairs& pairs) const;  // as in forces.hpp
   // Collective except in a trial. `friction`: on pairs.owned, N, without that of `couples`, which has pairs.owned.
   void add_friction(const Kinematics& kinematics, const Sliding& sliding, const SurfaceLaw& law, double coefficient,
                     Pairs& pairs, Couples& couples, std::vector<Vector>& force_density, std::vector<Vector>& friction);

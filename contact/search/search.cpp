@@ -1,6 +1,7 @@
 #include "contact/search/search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -206,6 +207,19 @@ Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_bod
   return pairs;
 }
 
+// How many periods above its original each site is, along the axes.
+std::vector<Vector> periods_above(const Pairs& pairs, const Domain& domain) {
+  std::vector<Vector> above;
+  if (domain.periods.empty()) return above;
+  const Images images = images_in_contact(domain);
+  for (const std::int64_t id : pairs.ids) {
+    above.emplace_back(Vector::Zero());
+    for (const Period& period : domain.periods)
+      above.back()[period.axis] = std::round(images[Images::image(id)].period[period.axis] / period.length);
+  }
+  return above;
+}
+
 // Calls visit(i, id) for owned points and the points that broken bonds or a crack separate from them: the search by
 // clusters leaves these pairs out.
 template <class Visit>
@@ -244,7 +258,9 @@ Pairs find_pairs(const Kinematics& kinematics, const BlockPair& blocks, double r
   IndexPairs found = pairs_in(candidates, may_touch);
   add_separated_pairs(kinematics.domain, counts, candidates, may_touch, found);
   const Lists lists = lists_of(candidates, found);
-  return pairs_of(candidates, lists, blocks.one_body, kinematics.domain);
+  Pairs pairs = pairs_of(candidates, lists, blocks.one_body, kinematics.domain);
+  pairs.above = periods_above(pairs, kinematics.domain);
+  return pairs;
 }
 
 }  // namespace strut::contact

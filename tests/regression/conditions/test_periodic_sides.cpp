@@ -320,6 +320,35 @@ TEST(PeriodicContact, MeetsTheImageBehindTheSide) {
   }
 }
 
+// The section at the sides carries what one block pushes the other with, friction too.
+TEST(PeriodicContact, IsPartOfTheReactionOfTheSides) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0.2e-3, 0, 0}, 4, 4, 4, 1e-3) + cubes(2, {6e-3, 0.3e-3, 0.2e-3}, 4, 4, 4, 1e-3));
+  const std::vector<std::pair<std::string, std::string>> pair = {{"block_1", "block_2"}};
+  for (const std::string& law :
+       {key("Contact Model", "Short Range Force") + key("Spring Constant", "1e12"), key("Contact Model", "Surface")}) {
+    const bool by_surfaces = law.find("Surface") != std::string::npos;
+    Parts parts =
+        thrown_block(by_surfaces ? section("Models", section("m", law + key("Friction Coefficient", "0.3"))) +
+                                       section("Interactions", section("General Contact", key("Contact Model", "m")))
+                                 : contact_by(law, pair, "1.1e-3", "0.3"));
+    parts.times = key("Final Time", "8e-6");
+    parts.verlet = key("Fixed dt", "5e-8");
+    parts.conditions = along("flight", "Initial Velocity", "block_2", "x", "100") +
+                       along("rub", "Initial Velocity", "block_2", "y", "30") + sides("x", "0", "10.5e-3");
+    const Table table = history_of(folder, parts, {"Reaction_X(sides x)", "Contact_Force_X(block_1:block_2)"});
+    double through_sides = 0, given = 0;
+    const auto &times = table.at("Time"), &force = table.at("Reaction_X(sides x)");
+    for (std::size_t n = 1; n < times.size(); ++n) {
+      through_sides += force[n] * (times[n] - times[n - 1]);
+      given += table.at("Contact_Force_X(block_1:block_2)")[n] * (times[n] - times[n - 1]);
+    }
+
+    EXPECT_GT(given, 0.01);
+    EXPECT_NEAR(through_sides / given, -1, 0.03) << law;  // half a step of the last force
+  }
+}
+
 // Blocks without contact pass through each other behind the side.
 TEST(PeriodicContact, IsMissedWhereNoneIsDeclared) {
   for (const bool across : {true, false}) {
