@@ -11,6 +11,7 @@
 #include "base/parallel/communicator.hpp"
 #include "setup/contradictions.hpp"
 #include "setup/open_ends.hpp"
+#include "setup/periods.hpp"
 #include "setup/sudden_motion.hpp"
 #include "topology/point_group.hpp"
 
@@ -272,6 +273,7 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
   }
   raise_together(communicator, problems.text(deck.file.string()));
   if (displaces && mesh_time == deck.solver.initial_time) set_reaches_from_here(mesh_time, scene);
+  join_boxes_across_sides(deck, times.begin, scene.conditions);
   check_open_ends(deck, scene.conditions, scene.body, problems);
   if (deck.next_solver) scene.warnings += look_at_next_steps(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));

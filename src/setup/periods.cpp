@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <type_traits>
+#include <variant>
 
 #include "base/errors.hpp"
 #include "conditions/periodic_sides.hpp"
@@ -169,6 +171,23 @@ std::string open_sides(const deck::Deck& deck, const Domain& domain) {
     warnings += text.str();
   }
   return warnings;
+}
+
+void join_boxes_across_sides(const deck::Deck& deck, double t, Conditions& conditions) {
+  constexpr double far = 1e6;  // periods
+  const auto join = [&](RigidTool& tool, Box& box) {
+    for_each(deck, [&](const PeriodicSides& sides, int) {
+      double &lower = box.lower[sides.axis], &upper = box.upper[sides.axis];
+      const double offset = tool.offset(t)[sides.axis], length = sides.upper - sides.lower;
+      if (lower + offset > sides.lower || upper + offset < sides.upper) return;
+      lower -= far * length, upper += far * length;
+    });
+  };
+  conditions.visit([&]<class Type>(Type& one) {
+    if constexpr (std::is_same_v<Type, RigidTool>) {
+      if (auto* box = std::get_if<Box>(&one.shape)) join(one, *box);
+    }
+  });
 }
 
 }  // namespace strut

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/parallel/communicator.hpp"
+#include "conditions/conditions.hpp"
 #include "deck/deck.hpp"
 #include "topology/domain.hpp"
 
@@ -17,6 +18,9 @@ std::vector<Mirror> sides_of_periods(const deck::Deck& deck);
 // conditions. `mirrors`: of the bodies.
 std::vector<Period> periods(const deck::Deck& deck, const PointCloud& cloud, const std::vector<Mirror>& mirrors,
                             const Communicator& communicator);
+
+// Boxes that are across both periodic sides at time t (s) go on without ends: so do they and their images.
+void join_boxes_across_sides(const deck::Deck& deck, double t, Conditions& conditions);
 
 // Collective. A warning for each period whose upper side has elements that meet none of those at the lower side.
 std::string open_sides(const deck::Deck& deck, const Domain& domain);

@@ -23,7 +23,8 @@ const OptionalKey<double> mass(
      .unit = "kg",
      .range = positive,
      .meaning =
-         "The tool moves freely under contact forces, without turning. Without this key it moves as Travel says."});
+         "The tool moves freely under contact forces, without turning. Without this key it moves as Travel says. "
+         "With symmetry planes: of the computed part."});
 
 RealKey speed_along(const std::string& axis) {
   return RealKey({.name = "Speed " + axis,

@@ -60,6 +60,7 @@ struct Moments {
 };
 
 Moments moments(const Body& body, const Vector& at) {
+  const Communicator& world = body.domain.communicator;
   Moments result;
   for (std::size_t k = 0; k < body.blocks[0].points.size(); ++k) {
     const Vector xi = body.domain.reference(body.blocks[0].points[k]) - at;
@@ -67,16 +68,17 @@ Moments moments(const Body& body, const Vector& at) {
     result.squares += indicator(body, k) * xi.cwiseProduct(xi);
   }
   for (double* number : {&result.sum, &result.squares[0], &result.squares[1], &result.squares[2]}) {
-    *number = world().sum(*number);
+    *number = world.sum(*number);
   }
   return result;
 }
 
 TEST(AveragedCriterion, HasTheVarianceOfItsBallAndLosesNothing) {
+  const Communicator world;
   for (const Kind& kind : kinds) {
     for (const double radius : {0.7e-3, 2e-3, 3e-3}) {
       SCOPED_TRACE(std::string(kind.name) + ", " + std::to_string(radius));
-      Body body = lattice_body(block_of(kind, radius), world());
+      Body body = lattice_body(block_of(kind, radius), world);
       AveragedCriterion averaged(body);
       set_indicators(body, [](const Vector& X) { return (X - middle()).norm() < 0.1 * spacing ? 0.5 : 0.0; });
       EXPECT_NEAR(moments(body, middle()).sum, 0.5, 1e-12);
@@ -92,9 +94,10 @@ TEST(AveragedCriterion, HasTheVarianceOfItsBallAndLosesNothing) {
 // Growth below a hundredth of the value at which a point fails waits; a uniform growth stays as it is, and the next
 // average adds to the one before.
 TEST(AveragedCriterion, KeepsAUniformGrowthAndWaitsForAHundredth) {
+  const Communicator world;
   for (const Kind& kind : kinds) {
     SCOPED_TRACE(kind.name);
-    Body body = lattice_body(block_of(kind, 2.5e-3), world());
+    Body body = lattice_body(block_of(kind, 2.5e-3), world);
     AveragedCriterion averaged(body);
     set_indicators(body, [](const Vector& X) { return X[0] > 9 * spacing ? 0.009 : 0.0; });
     averaged.average(body);
@@ -109,9 +112,10 @@ TEST(AveragedCriterion, KeepsAUniformGrowthAndWaitsForAHundredth) {
 
 // A point that has failed keeps its indicator, though its neighbors have none.
 TEST(AveragedCriterion, LeavesWhatHasFailed) {
+  const Communicator world;
   for (const Kind& kind : kinds) {
     SCOPED_TRACE(kind.name);
-    Body body = lattice_body(block_of(kind, 2e-3), world());
+    Body body = lattice_body(block_of(kind, 2e-3), world);
     AveragedCriterion averaged(body);
     set_indicators(body, [](const Vector& X) { return (X - middle()).norm() < 0.1 * spacing ? 1.0 : 0.0; });
     averaged.average(body);
@@ -120,19 +124,20 @@ TEST(AveragedCriterion, LeavesWhatHasFailed) {
       double& most = largest[indicator(body, k) < 1 ? 1 : 0];
       most = std::max(most, indicator(body, k));
     }
-    EXPECT_EQ(world().max(largest[0]), 1);
-    EXPECT_GT(world().max(largest[1]), 0.01);
-    EXPECT_LT(world().max(largest[1]), 0.2);
+    EXPECT_EQ(world.max(largest[0]), 1);
+    EXPECT_GT(world.max(largest[1]), 0.01);
+    EXPECT_LT(world.max(largest[1]), 0.2);
   }
 }
 
 TEST(AveragedCriterion, PassesNoCrack) {
+  const Communicator world;
   for (const Kind& kind : kinds) {
     SCOPED_TRACE(kind.name);
     LatticeSpec spec = block_of(kind, 3e-3);
     const double plane = 10 * spacing, wide = 21 * spacing;
     spec.cracks = {RectangularCrack{Vector(-spacing, -spacing, plane), Vector::UnitZ(), Vector::UnitY(), wide, wide}};
-    Body body = lattice_body(spec, world());
+    Body body = lattice_body(spec, world);
     AveragedCriterion averaged(body);
     set_indicators(body, [=](const Vector& X) { return X[2] > plane ? 0.5 : 0.0; });
     averaged.average(body);
@@ -144,7 +149,8 @@ TEST(AveragedCriterion, PassesNoCrack) {
 }
 
 TEST(AveragedCriterion, RefusesARadiusInAnotherUnit) {
-  Body body = lattice_body(block_of(kinds[0], 2.0), world());
+  const Communicator world;
+  Body body = lattice_body(block_of(kinds[0], 2.0), world);
   EXPECT_THROW(AveragedCriterion{body}, Error);
 }
 
