@@ -1,7 +1,5 @@
 #include "contact/couples.hpp"
 
-#include <cmath>
-
 #include "topology/mirror_reactions.hpp"
 
 namespace strut::contact {
@@ -106,8 +104,7 @@ Vector Couples::through_sides(const Domain& domain) const {
   if (forces_.empty() || domain.periods.empty()) return sum;
   std::vector<Vector> above(domain.owned + domain.ghosts, Vector::Zero());
   for (const ImagePoint& image : domain.halo.images()) {
-    for (const Period& period : domain.periods)
-      above[image.ghost][period.axis] = std::round(image.by.period[period.axis] / period.length);
+    for (const Period& period : domain.periods) above[image.ghost][period.axis] = periods_above(image.by, period);
   }
   for (const int i : affected_) {
     domain.families.for_each(i, [&](int j) {

@@ -42,11 +42,11 @@ struct Pairs {
   std::vector<double> limits;         // of partners: they touch at this distance at most, m (breaks.hpp); empty: none
   bool one_body = false;              // as in BlockPair
   std::optional<Halo> halo;           // of sites; none if no rank has a partner on another rank
-  // Of sites: how many periods above its original an image is along each axis; empty without periodic sides.
+  // Of sites: along each axis, the number of periods by which an image is above its original; empty without periods.
   std::vector<Vector> above = {};
   Vector friction_through = Vector::Zero();  // N, of this rank's last friction through the sides across each axis
 
-  // What a partner's force on an owned point adds to the force through the sides.
+  // The part of the force through the sides, N, that a partner's force on an owned point brings.
   Vector through_sides(int partner, const Vector& force) const {
     return above.empty() ? Vector::Zero() : Vector(above[partner].cwiseProduct(force));
   }

@@ -1,7 +1,6 @@
 #include "contact/search/search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -11,6 +10,7 @@
 #include "contact/search/clusters.hpp"
 #include "contact/search/pairs.hpp"
 #include "topology/bounding_box.hpp"
+#include "topology/mirror_reactions.hpp"
 #include "topology/nearby_ranks.hpp"
 
 namespace strut::contact {
@@ -207,15 +207,15 @@ Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_bod
   return pairs;
 }
 
-// How many periods above its original each site is, along the axes.
+// Of all sites, along each axis.
 std::vector<Vector> periods_above(const Pairs& pairs, const Domain& domain) {
   std::vector<Vector> above;
   if (domain.periods.empty()) return above;
   const Images images = images_in_contact(domain);
   for (const std::int64_t id : pairs.ids) {
     above.emplace_back(Vector::Zero());
-    for (const Period& period : domain.periods)
-      above.back()[period.axis] = std::round(images[Images::image(id)].period[period.axis] / period.length);
+    const Reflection& by = images[Images::image(id)];
+    for (const Period& period : domain.periods) above.back()[period.axis] = strut::periods_above(by, period);
   }
   return above;
 }

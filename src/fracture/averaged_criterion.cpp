@@ -101,7 +101,7 @@ void AveragedCriterion::over_points(Body& body, const Visit& visit) const {
   }
 }
 
-// Of owned points and ghosts, since the last average.
+// The growth of the indicator since the last average: of owned points; ghosts have 0 until an exchange.
 std::vector<double> AveragedCriterion::growth_of(Body& body) const {
   std::vector<double> growth(body.domain.sites.size(), 0);
   over_points(body, [&](const OfBlock& one, const MaterialBlock& block, int k) {

@@ -9,12 +9,10 @@ namespace strut {
 
 namespace {
 
-// How many periods above its original each image is; 0 for other points.
+// Of all sites; 0 for those that are no images.
 std::vector<int> periods_above(const Domain& domain, const Period& period) {
   std::vector<int> above(domain.sites.size(), 0);
-  for (const ImagePoint& image : domain.halo.images()) {
-    above[image.ghost] = static_cast<int>(std::lround(image.by.period[period.axis] / period.length));
-  }
+  for (const ImagePoint& image : domain.halo.images()) above[image.ghost] = strut::periods_above(image.by, period);
   return above;
 }
 

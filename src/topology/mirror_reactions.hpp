@@ -1,7 +1,9 @@
 // The forces of symmetry planes on the bodies that they cut: what the images behind a plane exert on the points before
-// it. Forces within a body and its images cancel.
+// it. Forces within a body and its images cancel. Through periodic sides a force counts for each period between its
+// ends.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -19,5 +21,10 @@ struct MirroredForces {
 
 // The force of each of domain.mirrors along its normal, N: this rank's part.
 std::vector<Vector> mirror_reactions(const Domain& domain, const MirroredForces& sums);
+
+// How many periods above its original an image is.
+inline int periods_above(const Reflection& by, const Period& period) {
+  return static_cast<int>(std::lround(by.period[period.axis] / period.length));
+}
 
 }  // namespace strut

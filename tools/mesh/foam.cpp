@@ -41,7 +41,7 @@ void check(const Body& body) {
   }
 }
 
-// What lies on one side of a surface has no thickness.
+// True if the body fills one side of a surface: such a body has no struts, whose thickness could be told.
 bool is_solid(const Body& body) { return body.lattice == "gyroid" || body.lattice == "diamond"; }
 
 // Struts thinner than a voxel are disconnected until the radius connects them, and then there are too many voxels. In a
