@@ -170,4 +170,7 @@ std::string thin_tools(const Situation& situation);
 // other motions of such points, and tools driven by forces, are not considered.
 std::string overruled_motions(const Situation& situation);
 
+// A warning for each non-reflecting end whose points a condition holds along its normal.
+std::string held_ends(const Situation& situation);
+
 }  // namespace strut

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -51,6 +52,24 @@ std::vector<Held> held_directions(const deck::Deck& deck, const PointCloud& clou
   return all;
 }
 
+// Two conditions of the deck and their common points, for each non-reflecting end and each condition that holds its
+// points along its normal.
+std::map<std::pair<int, int>, std::vector<int>> held_points_of_ends(const deck::Deck& deck, const PointCloud& cloud,
+                                                                    const std::vector<Held>& held) {
+  std::map<std::pair<int, int>, std::vector<int>> pairs;
+  for (std::size_t place = 0; place < deck.conditions.size(); ++place) {
+    const auto* end = std::get_if<NonReflectingEnd>(&deck.conditions[place].kind);
+    if (!end) continue;
+    const PointGroup group(cloud, deck.conditions[place].node_set, "Node Set");
+    for (const Held& one : held) {
+      if (std::abs(end->normal.dot(one.direction)) < one.part) continue;
+      std::vector<int>& common = pairs[{static_cast<int>(place), one.condition}];
+      std::ranges::copy_if(one.points, std::back_inserter(common), [&](int i) { return group.counts(cloud, i); });
+    }
+  }
+  return pairs;
+}
+
 // The initial position of a point, or of the face of its cell on a symmetry plane; second: true for the latter.
 std::pair<Vector, bool> place_of(const Held& held, int i, const Domain& domain) {
   const Vector X = domain.reference(i);
@@ -96,6 +115,26 @@ void look(const RigidTool& tool, int n, const std::vector<Held>& held, const Bod
 }
 
 }  // namespace
+
+std::string held_ends(const Situation& situation) {
+  const deck::Deck& deck = situation.deck;
+  const Body& body = situation.scene.body;
+  const auto pairs = held_points_of_ends(deck, body.domain.cloud, held_directions(deck, body.domain.cloud));
+  std::vector<std::vector<int>> lists;
+  for (const auto& [conditions, points] : pairs) lists.push_back(points);
+  const std::vector<FoundPoints> found = found_points(body, lists);
+  std::ostringstream text;
+  auto common = found.begin();
+  for (const auto& [conditions, points] : pairs) {
+    const FoundPoints& one = *common++;
+    if (one.count == 0) continue;
+    text << "WARNING: '" << deck.conditions[conditions.second].name << "' holds " << one.count
+         << " points of the non-reflecting end '" << deck.conditions[conditions.first].name
+         << "' along its normal, one of them at " << place_text(one.one)
+         << ": waves are reflected there; expected a Node Set without these points\n";
+  }
+  return text.str();
+}
 
 std::string overruled_motions(const Situation& situation) {
   const deck::Deck& deck = situation.deck;

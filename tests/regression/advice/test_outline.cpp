@@ -454,6 +454,18 @@ TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
               {"16 points that 'foot' holds", "what the tool loses to them depends on the time step"});
 }
 
+TEST(Ends, ThatConditionsHoldAlongTheirNormalAreWarnedOf) {
+  const auto told = [](const std::string& axes) {
+    Parts parts;
+    parts.conditions =
+        section("open", key("Type", "Non-Reflecting End") + key("Node Set", "foot") + key("Normal", "0 0 -1")) +
+        along("hold", "Prescribed Velocity", "foot", axes, "0");
+    return told_of(parts);
+  };
+  expect_told(told("yz"), {"WARNING: 'hold' holds 16 points of the non-reflecting end 'open' along its normal"});
+  EXPECT_EQ(told("xy").find("waves are reflected"), std::string::npos) << "held across the normal";
+}
+
 // A bar of four by four points of ordinary bonds, in whose E a third and more is not the material's.
 TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
   const RunFolder folder(Lattice{.nx = 4, .ny = 4, .nz = 30});
