@@ -41,19 +41,16 @@ void check(const Body& body) {
   }
 }
 
-// True if the body fills one side of a surface: such a body has no struts, whose thickness could be told.
-bool is_solid(const Body& body) { return body.lattice == "gyroid" || body.lattice == "diamond"; }
-
 // Struts thinner than a voxel are disconnected until the radius connects them, and then there are too many voxels. In a
 // regular skeleton many voxels are equally far from the edges, and whole ones come together.
 void check(const Body& body, const Struts& struts, std::size_t wanted) {
   if (volume_of(struts) <= too_much * static_cast<double>(wanted)) return;
-  const bool is_thin = !is_solid(body) && 2 * struts.radius < body.spacing;
+  const bool is_thin = !body.is_solid() && 2 * struts.radius < body.spacing;
   throw Error("body '" + body.name + "': " +
               (is_thin ? "struts of this relative density would be thinner than the voxels"
                        : "many voxels are equally far from the edges and come together") +
               "; in one piece they " +
-              (is_solid(body) ? "" : "are " + number(2 * struts.radius / body.spacing) + " spacings thick and ") +
+              (body.is_solid() ? "" : "are " + number(2 * struts.radius / body.spacing) + " spacings thick and ") +
               "have " + number(volume_of(struts) / static_cast<double>(wanted)) +
               " times the density: take a smaller spacing" +
               (is_thin ? " or larger cells" : ", or 'cells = 6', which holds them in part"));
@@ -173,7 +170,7 @@ std::string summary_of_lattice(const Body& body, const VoxelGrid& grid, const St
   } else {
     text << "  ";
   }
-  if (!is_solid(body))
+  if (!body.is_solid())
     text << 2 * struts.radius / std::cbrt(h.prod()) << " voxels = " << 2 * struts.radius << " m thick; ";
   text << "spacing " << h.transpose() << " m\n";
   return text.str();
@@ -204,7 +201,7 @@ io::Mesh lattice_mesh(const Body& body, std::string& summary) {
   Struts struts = as_meshed(body, lattice_members(body, grid));
   if (body.relative_density > 0) check(fine, struts, wanted_of(body, grid));
   summary = summary_of_lattice(fine, grid, struts);
-  if (is_solid(body)) struts.radius = 0;  // a value of the field
+  if (body.is_solid()) struts.radius = 0;  // a value of the field
   return mesh_of_members(body, struts, has_struts(body.lattice) ? "struts" : "sheets", grid, summary);
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <map>
 #include <set>
 #include <sstream>
 
@@ -13,6 +12,7 @@
 #include "base/files.hpp"
 #include "base/numbers.hpp"
 #include "mesh/lattices.hpp"
+#include "mesh/recipe_lines.hpp"
 
 namespace strut::mesh {
 
@@ -109,108 +109,6 @@ std::string name_of(Kind kind) {
   if (kind == fitted_cylinder) return "fitted cylinder";
   return kind == cone ? "cone" : kind == box ? "box" : kind == foam ? "foam" : kind == lattice ? "lattice" : "file";
 }
-
-struct Entry {
-  std::string value;
-  int line = 0;
-};
-
-// The entries of one body, and their errors.
-class Entries {
- public:
-  explicit Entries(int line) : line_(line) {}
-
-  int line() const { return line_; }
-  void set(const std::string& key, Entry entry) { entries_[key] = std::move(entry); }
-  const Entry* find(const std::string& key) const {
-    const auto place = entries_.find(key);
-    return place == entries_.end() ? nullptr : &place->second;
-  }
-  // Takes all of `defaults` that this does not have itself.
-  void take_defaults(const Entries& defaults) { entries_.insert(defaults.entries_.begin(), defaults.entries_.end()); }
-
- private:
-  int line_;
-  std::map<std::string, Entry> entries_;
-};
-
-std::string trimmed(const std::string& text) {
-  const auto begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
-// Parses lines into entries; checks only whether a line is a known key with a value.
-class Lines {
- public:
-  explicit Lines(std::vector<std::string>& problems) : problems_(problems) {}
-
-  // Throws Error of one line if this is another kind of file: most of its first lines are no lines of a recipe.
-  std::vector<Entries> read(std::istream& stream) {
-    std::string text;
-    int lines = 0;
-    for (int number = 1; std::getline(stream, text); ++number) {
-      if (number == 1) text = without_mark(text);
-      const std::string content = trimmed(text.substr(0, text.find('#')));
-      if (content.empty()) continue;
-      if (content.find('\0') != std::string::npos) throw Error("it is no recipe but holds other than text");
-      read_line(content, number);
-      if (++lines == looked_at || stream.peek() == EOF) check_kind(lines);
-    }
-    if (bodies_.empty()) return {common_};
-    for (Entries& body : bodies_) body.take_defaults(common_);
-    return bodies_;
-  }
-
- private:
-  static constexpr int looked_at = 100;
-
-  void check_kind(int lines) const {
-    if (lines > looked_at || foreign_ <= 2 || foreign_ < lines / 2) return;
-    throw Error("it is no recipe: expected lines 'key = value' or '[body]', found '" + first_foreign_ + "'" +
-                " and others; meshes of other programs are for tools/tetrahedra, images for tools/voxels");
-  }
-
-  // A line that cannot be of a recipe.
-  void take_foreign(const std::string& content) {
-    if (foreign_++ > 0) return;
-    for (const char c : content.substr(0, 60)) first_foreign_ += c >= ' ' && c <= '~' ? c : '?';
-  }
-
-  void read_line(const std::string& content, int number) {
-    if (content == "[body]") {
-      bodies_.emplace_back(number);
-      return;
-    }
-    const auto sign = content.find('=');
-    if (sign == std::string::npos) {
-      take_foreign(content);
-      return fail(number, "expected 'key = value' or '[body]', found '" + content + "'");
-    }
-    const std::string key = trimmed(content.substr(0, sign));
-    const std::string value = trimmed(content.substr(sign + 1));
-    if (const auto names = names_of_keys(); std::find(names.begin(), names.end(), key) == names.end()) {
-      if (key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_ ") != std::string::npos) take_foreign(content);
-      return fail(number, "unknown key '" + key + "'" + did_you_mean(key, names) + "; keys are " + joined(names));
-    }
-    Entries& body = bodies_.empty() ? common_ : bodies_.back();
-    if (value.empty()) return fail(number, "key '" + key + "' has no value");
-    if (const Entry* first = body.find(key)) {
-      return fail(number, "key '" + key + "' again (first in line " + std::to_string(first->line) + ")");
-    }
-    body.set(key, {value, number});
-  }
-
-  void fail(int line, const std::string& problem) {
-    problems_.push_back("line " + std::to_string(line) + ": " + problem);
-  }
-
-  std::vector<std::string>& problems_;
-  int foreign_ = 0;
-  std::string first_foreign_;
-  Entries common_{1};
-  std::vector<Entries> bodies_;
-};
 
 // Converts entries to a Body.
 class Converter {
@@ -342,7 +240,7 @@ class Converter {
       if (entry && entries_.find(one)) fail(*entry, std::string(other) + " and " + one + " exclude each other");
     }
     const Entry* thickness = entries_.find("thickness");
-    if (thickness && (body.lattice == "gyroid" || body.lattice == "diamond")) {
+    if (thickness && body.is_solid()) {
       fail(*thickness, "a solid on one side of a surface has no thickness; expected relative_density");
     }
   }
@@ -406,7 +304,7 @@ class Converter {
 std::vector<Entries> lines_of(const std::filesystem::path& path, std::istream& file,
                               std::vector<std::string>& problems) {
   try {
-    return Lines(problems).read(file);
+    return read_lines(file, names_of_keys(), problems);
   } catch (const Error& error) {
     throw Error(path.string() + ": " + error.what());
   }

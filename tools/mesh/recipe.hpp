@@ -47,6 +47,9 @@ struct Body {
   double irregularity = 0.5;          // 0: equal foam cells, 1: the most random ones
   std::uint64_t seed = 1;             // of the random numbers
   std::filesystem::path file;         // of a mesh, relative to the working folder
+
+  // True if it fills one side of a surface: it has no struts, whose thickness could be told.
+  bool is_solid() const { return lattice == "gyroid" || lattice == "diamond"; }
 };
 
 // Keys before the first "[body]" hold for all bodies; without such a line there is one body. Throws Error with all
