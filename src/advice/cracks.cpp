@@ -60,7 +60,7 @@ std::string noisy_cracks(const Situation& situation) {
     const auto& damage = block.material.damage;
     if (!block.is_quadratic() || !damage || damage->ductility || damage->is_gradual) continue;
     text += "WARNING: block '" + block.name +
-            "' breaks bonds by Formulation 'Quadratic Correspondence': its cracks take 0.4 to 1.6 of their fracture "
+            "' breaks bonds by Formulation 'Quadratic Correspondence': its cracks take 0.2 to 1.6 of their fracture "
             "energy, and the four integration points of a cell, which have no mirror image of their own, decide on the "
             "order of breaks: expect no symmetric crack. Choose Damage Model 'Cohesive Crack' (elastic solids; 0.89 to "
             "1.07 of it), or another Formulation\n";
