@@ -35,12 +35,12 @@ void FreeMotion::advance(double t, double dt, const Body& body) {
   force_impulse = 0.5 * (step + dt) * load;
   pending_sum = sum_of_points(body, pending);
   pending.assign(pending.size(), Vector::Zero());
-  velocity += ways * (force_impulse - pending_sum) / mass;
+  velocity += free_directions * (force_impulse - pending_sum) / mass;
   step = dt;
 }
 
 void FreeMotion::push_back(const Vector& impulse, const Body& body, ImpulseWork& work) {
-  velocity = before + ways * (force_impulse - pending_sum - impulse) / mass;
+  velocity = before + free_directions * (force_impulse - pending_sum - impulse) / mass;
   if (body.domain.communicator.rank() != 0) return;  // only once
   work.before.tools -= 0.5 * (impulse + pending_sum).dot(before);
   work.after.tools -= 0.5 * (impulse + pending_sum).dot(velocity);
@@ -49,16 +49,15 @@ void FreeMotion::push_back(const Vector& impulse, const Body& body, ImpulseWork&
 }
 
 void FreeMotion::keep_between(const std::vector<Mirror>& mirrors, const Shape& shape) {
-  constexpr double digits = 1e-5;  // of directions in a deck
   for (const Mirror& mirror : mirrors) {
-    bool is_asked = std::abs(mirror.normal.dot(velocity)) > digits * velocity.norm();
+    bool is_asked = std::abs(mirror.normal.dot(velocity)) > digits_of_decks * velocity.norm();
     for (int c = 0; c < 3; ++c) {
       const bool is_pushed = force[c] && !(force[c]->is_constant() && (*force[c])(0, 0, 0, 0) == 0);
-      is_asked = is_asked || (is_pushed && std::abs(mirror.normal[c]) > digits);
+      is_asked = is_asked || (is_pushed && std::abs(mirror.normal[c]) > digits_of_decks);
     }
-    const Vector across = ways * mirror.normal;
-    if (is_asked || across.norm() < digits || !is_own_image(shape, mirror.on, mirror.normal)) continue;
-    ways -= across * across.transpose() / across.squaredNorm();
+    const Vector across = free_directions * mirror.normal;
+    if (is_asked || across.norm() < digits_of_decks || !is_own_image(shape, mirror.on, mirror.normal)) continue;
+    free_directions -= across * across.transpose() / across.squaredNorm();
   }
 }
 
@@ -226,7 +225,7 @@ void RigidTool::fly(VelocityUpdate& update) {
   const Vector without = free->velocity;
   for (int k = 0; k < most_trials; ++k) {
     const Push push = trial_push(*this, update);
-    const Vector left = without - free->ways * push.impulse / free->mass - free->velocity;
+    const Vector left = without - free->free_directions * push.impulse / free->mass - free->velocity;
     if (left.norm() <= accuracy * std::max(without.norm(), push.impulse.norm() / free->mass)) break;
     free->velocity += left / (1 + push.mass / free->mass);
   }

@@ -26,7 +26,7 @@ struct FreeMotion {
   double mass = 0;                   // kg
   Vector velocity = Vector::Zero();  // m/s, over the step that begins at `time`; at the start the initial velocity
   std::array<std::optional<Function>, 3> force = {};  // along x, y, z, of t only, N
-  Tensor ways = Tensor::Identity();                   // projects on the directions in which forces move it
+  Tensor free_directions = Tensor::Identity();        // projects on the directions in which forces move it
 
   Vector before = Vector::Zero();  // m/s, over the step before
   Vector offset = Vector::Zero();  // m, displacement at `time`

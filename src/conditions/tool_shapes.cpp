@@ -59,16 +59,15 @@ Surface surface(const Box& box, const Vector& place) {
 
 namespace {
 
-constexpr double digits = 1e-5;  // of directions and positions in a deck
-
 bool is_own_image(const HalfSpace& half, const Vector&, const Vector& n) {
-  return std::abs(half.normal.dot(n)) < digits;
+  return std::abs(half.normal.dot(n)) < digits_of_decks;
 }
 
 bool is_own_image(const Cylinder& cylinder, const Vector& on, const Vector& n) {
   const double along = std::abs(cylinder.axis.dot(n));
-  const bool is_in_plane = along < digits && std::abs(n.dot(cylinder.point - on)) < digits * cylinder.radius;
-  return is_in_plane || along > 1 - digits * digits;
+  const bool is_in_plane =
+      along < digits_of_decks && std::abs(n.dot(cylinder.point - on)) < digits_of_decks * cylinder.radius;
+  return is_in_plane || along > 1 - digits_of_decks * digits_of_decks;
 }
 
 // Its corners are those of its image.
@@ -77,7 +76,7 @@ bool is_own_image(const Box& box, const Vector& on, const Vector& n) {
   for (int corner = 0; corner < 8; ++corner) {
     const Vector signs(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
     const Vector place = middle + half.cwiseProduct(signs), image = place - 2 * n.dot(place - on) * n;
-    if (((image - middle).cwiseAbs() - half).norm() > digits * half.minCoeff()) return false;
+    if (((image - middle).cwiseAbs() - half).norm() > digits_of_decks * half.minCoeff()) return false;
   }
   return true;
 }

@@ -47,6 +47,9 @@ Surface surface(const Cylinder& cylinder, const Vector& place);
 Surface surface(const Box& box, const Vector& place);
 Surface surface(const Shape& shape, const Vector& place);
 
+// The accuracy of directions and relative positions that decks give by their digits.
+constexpr double digits_of_decks = 1e-5;
+
 // True if a shape is its own mirror image by the plane with the unit normal n through a point.
 bool is_own_image(const Shape& shape, const Vector& on, const Vector& n);
 

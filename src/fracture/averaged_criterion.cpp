@@ -33,6 +33,8 @@ double variance_of_ball(const MaterialBlock& block) {
   return radius * radius / 5;
 }
 
+bool averages(const MaterialBlock& block) { return number_of_indicator(block) >= 0 && variance_of_ball(block) > 0; }
+
 std::string too_wide(const Body& body, std::size_t b) {
   std::ostringstream text;
   text << "Damage Models: the Averaging Radius of block '" << body.blocks[b].name << "' is "
@@ -45,18 +47,14 @@ std::string too_wide(const Body& body, std::size_t b) {
 
 AveragedCriterion::AveragedCriterion(Body& body) {
   const Domain& domain = body.domain;
-  const auto averages = [](const MaterialBlock& block) {
-    return number_of_indicator(block) >= 0 && variance_of_ball(block) > 0;
-  };
-  if (std::none_of(body.blocks.begin(), body.blocks.end(), averages)) return;
+  if (std::ranges::none_of(body.blocks, averages)) return;
   has_indicator_.assign(domain.sites.size(), 0);
   double passes = 1;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
-    const int number = number_of_indicator(block);
-    if (number < 0) continue;
+    if (!averages(block)) continue;
     for (const int i : block.points) has_indicator_[i] = 1;
-    blocks_.push_back({b, number, variance_of_ball(block)});
+    blocks_.push_back({b, number_of_indicator(block), variance_of_ball(block)});
   }
   domain.halo.exchange(has_indicator_);
   for (OfBlock& one : blocks_) {
@@ -70,7 +68,7 @@ AveragedCriterion::AveragedCriterion(Body& body) {
   body.averaged_indicator.use(body.owned());
 }
 
-// Visits the members of the family of i that have an indicator, and i.
+// Visits i and the members of its family whose indicators are averaged.
 template <class Visit>
 void AveragedCriterion::over_family(const Domain& domain, int i, const Visit& visit) const {
   visit(i);
@@ -135,12 +133,15 @@ void AveragedCriterion::average(Body& body) {
   if (body.domain.communicator.max(most) < due_growth) return;
   for (int n = 0; n < passes_; ++n) pass(body, growth);
   over_points(body, [&](const OfBlock& one, MaterialBlock& block, int k) {
-    double& averaged = body.averaged_indicator[block.points[k]];
-    averaged += growth[block.points[k]];
+    const int i = block.points[k];
+    const double averaged = body.averaged_indicator[i] + growth[i];
+    double sum = 0;
     for (int q = 0; q < block.points_per_cell(); ++q) {
       double& own = block.state->at(block.place(k, q), one.number);
       if (own < 1) own = averaged;  // a point that softens goes on
+      sum += own;
     }
+    body.averaged_indicator[i] = sum / block.points_per_cell();  // growth that was given is not given again
   });
 }
 

@@ -40,8 +40,8 @@ class AveragedCriterion {
   std::vector<double> growth_of(Body& body) const;
   void pass(Body& body, std::vector<double>& growth) const;
 
-  std::vector<OfBlock> blocks_;      // with a criterion
-  std::vector<char> has_indicator_;  // of owned points and ghosts
+  std::vector<OfBlock> blocks_;      // with a criterion and a radius
+  std::vector<char> has_indicator_;  // of owned points and ghosts: 1 in these blocks
   int passes_ = 0;
 };
 

@@ -51,11 +51,13 @@ const RealKey tearing_energy(
      .meaning = "G_c, dissipated per area of crack (roughly) while the stress falls once the criterion is met. 0: a "
                 "point fails at once, and the dissipation depends on the spacing."});
 
-const RealKey averaging_radius({.name = "Averaging Radius",
-                                .unit = "m",
-                                .range = not_negative,
-                                .fallback = "0",
-                                .meaning = "R of the ball over which the criterion's growth is averaged; 0: none."});
+const RealKey averaging_radius(
+    {.name = "Averaging Radius",
+     .unit = "m",
+     .range = not_negative,
+     .fallback = "0",
+     .meaning = "R of the ball over which the criterion's growth is averaged (in equilibria after each load "
+                "step); 0: none."});
 
 const RealKey failure_strain({.name = "Failure Strain", .range = positive, .meaning = "ε_f."});
 

@@ -256,6 +256,7 @@ void Equilibrium::commit() {
   outer_before_ = outer_;
   mirror_forces_before_ = mirror_forces_;
   forces_before_ = forces_;
+  if (fracture_) fracture_->average_criteria(body_);
   begin_flow_of_cells();
 }
 

@@ -80,6 +80,29 @@ TEST(TwoSolvers, WorkGoesOn) {
 
 const std::string held = along("low", "Prescribed Displacement", "foot", "xyz", "0");
 
+// A bar of metal flows at both of its ends, which are held, the least: the average of the criterion lies below its
+// largest value in equilibria, too, and above its least one.
+TEST(TwoSolvers, CriteriaOfFailureAreAveragedInEquilibria) {
+  const auto indicators = [](const std::string& radius) {
+    Parts parts;
+    parts.materials = section(
+        "copper", key("Material Model", "Elastic Plastic Correspondence") + key("Density", "8930") +
+                      key("Young's Modulus", "117e9") + key("Poisson's Ratio", "0.35") + key("Yield Stress", "400e6") +
+                      section("Hardening", key("Type", "Linear") + key("Hardening Modulus", "1e9")));
+    parts.damage = section("tearing", key("Damage Model", "Plastic Strain") + key("Failure Strain", "0.5") +
+                                          key("Averaging Radius", radius));
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") +
+                                        key("Damage Model", "tearing") + key("Horizon", "2.01e-3"));
+    parts.conditions = held + along("high", "Prescribed Displacement", "top", "xyz", "2e-4*t");
+    const Table table = history_of(parts, {"Max_Failure_Indicator", "Min_Failure_Indicator"});
+    return std::pair(table.at("Max_Failure_Indicator")[2], table.at("Min_Failure_Indicator")[2]);
+  };
+  const auto [most, least] = indicators("0");
+  const auto [averaged_most, averaged_least] = indicators("2e-3");
+  EXPECT_LT(averaged_most, 0.9 * most);
+  EXPECT_GT(averaged_least, least);
+}
+
 // Errors in keys that only the explicit steps use are raised before the equilibria begin.
 TEST(TwoSolvers, ErrorsOfTheStepsComeBeforeTheEquilibria) {
   const std::vector<std::pair<std::string, std::string>> wrong = {

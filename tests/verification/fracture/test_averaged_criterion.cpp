@@ -124,9 +124,41 @@ TEST(AveragedCriterion, LeavesWhatHasFailed) {
       double& most = largest[indicator(body, k) < 1 ? 1 : 0];
       most = std::max(most, indicator(body, k));
     }
+    const double given = moments(body, middle()).sum;
+    averaged.average(body);
+    EXPECT_EQ(moments(body, middle()).sum, given) << "its growth is given once";
     EXPECT_EQ(world.max(largest[0]), 1);
     EXPECT_GT(world.max(largest[1]), 0.01);
     EXPECT_LT(world.max(largest[1]), 0.2);
+  }
+}
+
+// A block without a radius keeps what each of its integration points has, and gives nothing.
+TEST(AveragedCriterion, LeavesOtherBlocks) {
+  const Communicator world;
+  for (const Kind& kind : kinds) {
+    SCOPED_TRACE(kind.name);
+    LatticeSpec spec = block_of(kind, 2e-3);
+    PointCloud cloud = lattice_cloud(spec, world);
+    for (std::size_t i = 0; i < cloud.size(); ++i) cloud.blocks[i] = cloud.positions[i][0] > middle()[0] ? 1 : 0;
+    cloud.block_names = {"averaged", "other"};
+    BlockBonds bonds(kind.horizon * spacing);
+    bonds.families = FamilyKind::lists;
+    Domain domain = make_domain(partitioned(std::move(cloud), world), {bonds, bonds}, world);
+    Body body = make_body(std::move(domain), spec.influence, {spec.material, metal(kind.formulation, 0)});
+    MaterialBlock& other = body.blocks[1];
+    const auto own = [](std::size_t k, int q) { return 0.001 * static_cast<double>(k % 7) + 0.1 * q; };
+    for (std::size_t k = 0; k < other.points.size(); ++k) {
+      for (int q = 0; q < other.points_per_cell(); ++q)
+        other.state->at(other.place(static_cast<int>(k), q), number) = own(k, q);
+    }
+    AveragedCriterion averaged(body);
+    set_indicators(body, [](const Vector& X) { return X[0] < 5 * spacing ? 0.5 : 0.0; });
+    averaged.average(body);
+    for (std::size_t k = 0; k < other.points.size(); ++k) {
+      for (int q = 0; q < other.points_per_cell(); ++q)
+        EXPECT_EQ(other.state->at(other.place(static_cast<int>(k), q), number), own(k, q));
+    }
   }
 }
 
