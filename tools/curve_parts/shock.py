@@ -10,6 +10,7 @@ accelerates them.
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 LEAST_LAYERS = 4
 LEAST_JUMP = 0.5      # of the usual velocity of the hit end
@@ -36,8 +37,7 @@ class Front:
 
     def jump_of_stress(self, times, ends, density):
         """Across the front, Pa, from the difference of both ends: slopes over the arrivals, as the speed."""
-        impulse = np.concatenate([[0], np.cumsum(0.5 * (ends[1:] + ends[:-1]) * np.diff(times))])
-        given = np.abs(np.interp(self.ahead.arrivals, times, impulse) - impulse[0])
+        given = np.abs(np.interp(self.ahead.arrivals, times, cumulative_trapezoid(ends, times, initial=0)))
         behind = np.polyfit(self.ahead.arrivals, given - density * self.ahead.flow, 1)[0]
         return float(behind - density * self.speed * self.ahead.velocity.mean())
 

@@ -21,6 +21,14 @@ def fail(text):
     sys.exit(f"tools/{os.path.basename(sys.argv[0])}: {text}")
 
 
+def run(main):
+    """A tool: an error of a file is one line."""
+    try:
+        main()
+    except OSError as error:
+        fail(str(error))
+
+
 def install_missing(packages):
     """{module: Debian's package}: restarts the script with Debian's Python if need be, and installs what it lacks."""
     import importlib.util
@@ -111,14 +119,6 @@ class Parser(argparse.ArgumentParser):
 # created anew, never written through a link
 
 
-def same_file(one, other):
-    """True if both names denote one file, through links and hard links."""
-    try:
-        return os.path.samefile(one, other)
-    except OSError:  # one of them does not exist
-        return False
-
-
 def check_output(path, *read):
     """Checks an output path before the work is done. `read`: the input files."""
     folder = os.path.dirname(path) or "."
@@ -127,7 +127,7 @@ def check_output(path, *read):
     if not os.path.isdir(folder):
         fail(f"{path} cannot be written: there is no folder {folder}")
     for file in read:
-        if same_file(path, file):
+        if os.path.exists(path) and os.path.exists(file) and os.path.samefile(path, file):  # through links
             fail(f"{path} is {file}, which is read: expected another file to write" if path != file else
                  f"{path} is read: expected another file to write")
 
