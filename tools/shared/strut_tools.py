@@ -54,9 +54,9 @@ def install_missing(packages):
 # The command line
 
 
-def nearest(word, words):
+def nearest(word, words, likeness=0.6):
     """" (did you mean 'x'?)", or nothing."""
-    close = difflib.get_close_matches(word, words, 1)
+    close = difflib.get_close_matches(word, words, 1, likeness)
     return f" (did you mean '{close[0]}'?)" if close else ""
 
 

@@ -33,6 +33,10 @@ class Study:
         lines = [[dict(zip(names, values)) for values in all_values] for names, all_values in self.vary]
         return [{k: v for part in parts for k, v in part.items()} for parts in itertools.product(*lines)]
 
+    def expect(self, name, known, what):
+        if name not in known:
+            fail(f"{self.path}: there is no '{name}' {what}{nearest(name, known)}; there are {', '.join(known)}")
+
 
 def read(path, converge=None):
     """Reads a study from a file. With `converge` it need not vary or collect anything: the recipe's spacing varies."""
