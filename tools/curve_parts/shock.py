@@ -52,12 +52,6 @@ class Ahead:
     flow: np.ndarray      # m²/s: their velocities times their thickness
 
 
-def strains(places):
-    """Strain of the gaps between layers: 1 - (z_k+1 - z_k)/(Z_k+1 - Z_k); places: rows x layers, row 0: reference."""
-    gaps = np.diff(places, axis=1)
-    return 1 - gaps / gaps[0]
-
-
 def arrivals(times, gained):
     """Time at which each layer first has half of the velocity that the hit end, the first layer, has gained; NaN: never."""
     ahead = 0.5 * gained[:, :1] - gained  # positive: not yet passed
@@ -118,7 +112,8 @@ def ahead_of(times, X, gained, when, middle):
 
 def strain_behind(times, places, X, ahead):
     """Mean over the gaps on the line as the front arrives at its end, without the last few behind it."""
-    e = strains(places)[int(np.argmin(np.abs(times - ahead.arrivals[-1])))]
+    gaps = np.diff(places, axis=1)
+    e = 1 - gaps[np.argmin(np.abs(times - ahead.arrivals[-1]))] / gaps[0]
     centers = 0.5 * (X[1:] + X[:-1])
     passed = (centers > ahead.places[0]) & (centers < ahead.places[-1] - LAST * X[-1])
     return float(e[passed].mean()) if passed.any() else float("nan")

@@ -1,7 +1,4 @@
 """The text and the figure of a curve."""
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from strut_tools import save_picture

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 
+os.environ["MPLBACKEND"] = "Agg"  # figures need no screen
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 

@@ -1,7 +1,4 @@
 """The text and the picture of a stiffness."""
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 

@@ -5,9 +5,6 @@ import re
 import subprocess
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from decks import Deck, value_of

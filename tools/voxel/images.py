@@ -80,7 +80,7 @@ def read(path, raw=None, array=None, unit=None):
         return checked(path, *nrrd.read(path), ending, unit)
     if ending in VTK_READERS:
         values, image = by_vtk(path, *VTK_READERS[ending], array)
-        directions = orientation.of_vtk(image)
+        directions = np.reshape(image.GetDirectionMatrix().GetData(), (3, 3)).T
         if ending in headers.META_IMAGE:
             headers.check_meta_image(path, values)
             directions = orientation.of_meta_image(path, headers.head_of(path))

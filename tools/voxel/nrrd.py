@@ -144,11 +144,16 @@ def gunzipped(content):
     return out
 
 
-def sizes_of(path, fields):
+def numbers_in(text, kind):
+    """None of them where a word is no number."""
     try:
-        sizes = [int(word) for word in fields["sizes"].split()]
+        return [kind(word) for word in text.split()]
     except ValueError:
-        sizes = []
+        return []
+
+
+def sizes_of(path, fields):
+    sizes = numbers_in(fields["sizes"], int)
     if len(sizes) != whole(path, fields, "dimension") or not sizes or min(sizes) < 1:
         fail(f"{path} is damaged: dimension {fields['dimension']} and sizes {fields['sizes']}")
     return sizes
@@ -202,21 +207,16 @@ def spacing_of(path, fields):
     """None if the file has no spacing."""
     directions = directions_of(path, fields)
     if directions is None:
-        words = fields.get("spacings", "").split()
-        if not words:
+        if not fields.get("spacings"):
             return None
-        try:
-            numbers = [float(word) for word in words]
-        except ValueError:
-            numbers = []
+        numbers = numbers_in(fields["spacings"], float)
         if len(numbers) != len(sizes_of(path, fields)):
             fail(f"{path}: spacings '{fields['spacings']}', expected a number for each axis")
         found = [abs(n) for n, across in zip(numbers, axes_of(path, fields, sizes_of(path, fields))) if across]
     else:
         axes = [d for d in directions if d is not None]
         found = [float(np.linalg.norm(d)) for d in axes]
-        for a, one in enumerate(axes):
-            for b in range(a):
-                if abs(one @ axes[b]) > OBLIQUE * found[a] * found[b]:
-                    fail(f"{path}: its axes are not at right angles ('space directions'), expected voxels that are boxes: resample it")
+        oblique = np.abs(np.inner(axes, axes)) > OBLIQUE * np.outer(found, found)
+        if np.triu(oblique, 1).any():
+            fail(f"{path}: its axes are not at right angles ('space directions'), expected voxels that are boxes: resample it")
     return tuple((found + found[-1:])[:3])
