@@ -138,7 +138,8 @@ def motion_of(deck, axis, times):
         else:
             continue
         if None not in way:
-            moves[name] = cumulative_trapezoid(way, times, initial=0) if kind == "Prescribed Velocity" else np.array(way)
+            is_speed = kind == "Prescribed Velocity"
+            moves[name] = cumulative_trapezoid(way, times, initial=0) if is_speed else np.array(way)
     return moves
 
 

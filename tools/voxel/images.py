@@ -188,8 +188,8 @@ def slices(names, where):
         page, _, kind = tiff(name)
         values = np.empty((len(names), *page.shape[1:]), page.dtype) if values is None else values
         if page.shape != (1, *values.shape[1:]) or page.dtype != values.dtype:
-            fail(f"{name} has {' x '.join(map(str, page.shape[::-1]))} voxels of {page.dtype}, expected {values.shape[2]} x "
-                 f"{values.shape[1]} x 1 of {values.dtype} as in {names[0]}")
+            fail(f"{name} has {' x '.join(map(str, page.shape[::-1]))} voxels of {page.dtype}, expected "
+                 f"{values.shape[2]} x {values.shape[1]} x 1 of {values.dtype} as in {names[0]}")
         values[z] = page[0]
     return Image(values, None, f"{len(names)} slices, {kind}{gap_in(names)}")
 

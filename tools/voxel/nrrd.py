@@ -218,5 +218,6 @@ def spacing_of(path, fields):
         found = [float(np.linalg.norm(d)) for d in axes]
         oblique = np.abs(np.inner(axes, axes)) > OBLIQUE * np.outer(found, found)
         if np.triu(oblique, 1).any():
-            fail(f"{path}: its axes are not at right angles ('space directions'), expected voxels that are boxes: resample it")
+            fail(f"{path}: its axes are not at right angles ('space directions'), expected voxels that are boxes: "
+                 "resample it")
     return tuple((found + found[-1:])[:3])

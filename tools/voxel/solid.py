@@ -271,8 +271,8 @@ def kept_of(solid, pieces, spurs, least):
 
 
 def faces_touched(solid):
-    return [f"{letter}{side}" for axis, letter in ((2, "x"), (1, "y"), (0, "z")) for end, side in ((0, "min"), (-1, "max"))
-            if solid.take(end, axis).any()]
+    return [f"{letter}{side}" for axis, letter in ((2, "x"), (1, "y"), (0, "z"))
+            for end, side in ((0, "min"), (-1, "max")) if solid.take(end, axis).any()]
 
 
 def thickness(solid, cell):

@@ -105,8 +105,8 @@ def pieces_of(surface):
 
 
 def signs_of(path, pieces, low, edge, shape):
-    """+1 for each piece that bounds a body, -1 for a cavity; how many were turned; and bodies_in(). A piece that is wound the other way is a
-    cavity in a body, but outside all of them a body, together with what is within it."""
+    """+1 for each piece that bounds a body, -1 for a cavity; how many were turned; and bodies_in(). A piece that is
+    wound the other way is a cavity in a body, but outside all of them a body, together with what is within it."""
     count, turn, signs, turned = np.zeros(shape[::-1], np.int32), np.ones(shape[::-1], np.int8), [], 0
     for piece in pieces:
         part, inside = part_inside(piece, low, edge, shape)
