@@ -10,6 +10,7 @@ accelerates them.
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 LEAST_LAYERS = 4
 LEAST_JUMP = 0.5      # of the usual velocity of the hit end
@@ -36,8 +37,7 @@ class Front:
 
     def jump_of_stress(self, times, ends, density):
         """Across the front, Pa, from the difference of both ends: slopes over the arrivals, as the speed."""
-        impulse = np.concatenate([[0], np.cumsum(0.5 * (ends[1:] + ends[:-1]) * np.diff(times))])
-        given = np.abs(np.interp(self.ahead.arrivals, times, impulse) - impulse[0])
+        given = np.abs(np.interp(self.ahead.arrivals, times, cumulative_trapezoid(ends, times, initial=0)))
         behind = np.polyfit(self.ahead.arrivals, given - density * self.ahead.flow, 1)[0]
         return float(behind - density * self.speed * self.ahead.velocity.mean())
 
@@ -50,12 +50,6 @@ class Ahead:
     arrivals: np.ndarray  # s
     velocity: np.ndarray  # m/s, their median
     flow: np.ndarray      # m²/s: their velocities times their thickness
-
-
-def strains(places):
-    """Strain of the gaps between layers: 1 - (z_k+1 - z_k)/(Z_k+1 - Z_k); places: rows x layers, row 0: reference."""
-    gaps = np.diff(places, axis=1)
-    return 1 - gaps / gaps[0]
 
 
 def arrivals(times, gained):
@@ -118,7 +112,8 @@ def ahead_of(times, X, gained, when, middle):
 
 def strain_behind(times, places, X, ahead):
     """Mean over the gaps on the line as the front arrives at its end, without the last few behind it."""
-    e = strains(places)[int(np.argmin(np.abs(times - ahead.arrivals[-1])))]
+    gaps = np.diff(places, axis=1)
+    e = 1 - gaps[np.argmin(np.abs(times - ahead.arrivals[-1]))] / gaps[0]
     centers = 0.5 * (X[1:] + X[:-1])
     passed = (centers > ahead.places[0]) & (centers < ahead.places[-1] - LAST * X[-1])
     return float(e[passed].mean()) if passed.any() else float("nan")

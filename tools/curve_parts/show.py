@@ -1,15 +1,7 @@
-"""Tables, CSV with units and the figure of a curve."""
-import matplotlib
-
-matplotlib.use("Agg")
+"""The text and the figure of a curve."""
 import matplotlib.pyplot as plt
 import numpy as np
-from strut_tools import save_picture, write_table
-
-# The beginnings of the tables.
-CURVE = ["Time (s)", "Strain (1)"]
-MEASURES = ["Measure", "Value", "Unit", "Definition"]
-FRONT = ["Distance from the end that is hit (m)", "Arrival of the front (s)"]
+from strut_tools import save_picture
 
 
 def say(about, found):
@@ -19,19 +11,6 @@ def say(about, found):
     for m in found:
         value = "-" if m.value is None else f"{m.value:.5g}"
         print(f"{m.name:<24} {value:>12} {'' if m.unit == '1' else m.unit:<6} {m.said()}")
-
-
-def write_curve(path, times, strain, names, stresses):
-    W = np.concatenate([[0], np.cumsum(0.5 * (stresses[0][1:] + stresses[0][:-1]) * np.diff(strain))])
-    write_table(path, [*CURVE, *[f"Stress (Pa) of {name}" for name in names[:2]], "Energy (J/m3)"], zip(times, strain, *stresses, W))
-
-
-def write_measures(path, found):
-    write_table(path, MEASURES, [[m.name, m.value, m.unit, m.said()] for m in found])
-
-
-def write_front(path, front):
-    write_table(path, FRONT, zip(front.places, front.arrivals))
 
 
 def scaled(pascals):

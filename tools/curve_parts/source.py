@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import strut_tools
-from decks import Recipe, value_at, value_in
+from decks import value_at, value_in
+from scipy.integrate import cumulative_trapezoid
 from strut_tools import Parser, fail, nearest
 
 from . import extent
@@ -71,7 +72,7 @@ def forces(table, words):
     named = [name for name in (words.force, words.other) if name]
     for name in named:
         column(table, name, "--force")
-    known = {name: FORCES.fullmatch(name) for name in table if FORCES.fullmatch(name)}
+    known = {name: found for name in table if (found := FORCES.fullmatch(name))}
     axis = words.axis
     if axis is None:
         axes = [known[name][2] for name in named if name in known] or [m[2] for m in known.values()]
@@ -94,13 +95,9 @@ def with_the_chosen(words, along):
     rest = [name for name in along if name not in (words.force, words.other)]
     first = words.force or next(iter(rest), words.other)
     ends = [words.other] if words.other and words.other != first else []
-    ends += [name for name in rest if end_of(name) != end_of(first)]
+    ends += [name for name in rest if name.removeprefix(INSTANT) != first.removeprefix(INSTANT)]
     ends.sort(key=lambda name: name != words.other and name.startswith(INSTANT) != first.startswith(INSTANT))
     return [first, *ends] if first else []
-
-
-def end_of(name):
-    return name.removeprefix(INSTANT)
 
 
 def is_equilibrium(deck):
@@ -136,14 +133,13 @@ def motion_of(deck, axis, times):
         kind, value = value_in(keys, "Type"), value_in(keys, "Value")
         if kind in ("Prescribed Displacement", "Prescribed Velocity") and letter in value_in(keys, "Coordinate"):
             way = [value_at(value, t) for t in times]
-            if None not in way and kind == "Prescribed Velocity":
-                way = np.concatenate([[0], np.cumsum(0.5 * (np.array(way[1:]) + way[:-1]) * np.diff(times))])
         elif kind and kind.startswith("Rigid ") and value_in(keys, f"Travel {letter.upper()}"):
             way = [value_at(value_in(keys, f"Travel {letter.upper()}"), t) for t in times]
         else:
             continue
-        if len(way) and not any(w is None for w in way):
-            moves[name] = np.array(way)
+        if None not in way:
+            is_speed = kind == "Prescribed Velocity"
+            moves[name] = cumulative_trapezoid(way, times, initial=0) if is_speed else np.array(way)
     return moves
 
 
@@ -222,9 +218,9 @@ def sample(deck, axis, block, words):
 
 def size_of(deck, block, words, found):
     recipe = deck and deck.recipe()
-    body = Recipe(recipe).body(block) or Recipe(recipe).body() if recipe else None
+    body = recipe and recipe.body(block)
     if body and body.get("shape") in ("foam", "box"):
-        found["size"] = f"from {recipe}"
+        found["size"] = f"from {recipe.path}"
         return [float(x) for x in body["size"].split()]
     mesh = deck and deck.file("Discretization", "Input Mesh File")
     size = mesh and extent.size_of(mesh, block)
@@ -272,8 +268,7 @@ def block_of(deck, names, words):
         if match and match[1] == "Contact_Force":
             return match[3].split(":")[0]
     recipe = deck and deck.recipe()
-    bodies = Recipe(recipe).bodies() if recipe else []
-    foams = [b.get("name", "body") for b in bodies if b.get("shape") == "foam"]
+    foams = [b.get("name", "body") for b in (recipe.bodies() if recipe else []) if b.get("shape") == "foam"]
     if len(foams) == 1:
         return foams[0]
     blocks = deck and [value_in(keys, "Block Names") for keys in deck.sections("Blocks").values()]
@@ -291,9 +286,9 @@ def density_of(deck, block, volume, words, found):
         found["density"] = f"from the points of {result.path}"
         return material * points_of(result, block)[1].sum() / volume
     recipe = deck.recipe()
-    body = Recipe(recipe).body(block) or Recipe(recipe).body() if recipe else None
+    body = recipe and recipe.body(block)
     if body and "relative_density" in body:
-        found["density"] = f"from {recipe}"
+        found["density"] = f"from {recipe.path}"
         return material * float(body["relative_density"])
     return None
 

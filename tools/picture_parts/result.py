@@ -1,11 +1,10 @@
 """A result (Exodus II) of material points: names, frames and columns, read on demand."""
-import difflib
 import os
 
 import exodus
 import numpy as np
 from exodus import names_in
-from strut_tools import fail
+from strut_tools import fail, nearest
 
 UNITS = {"Displacement": "m", "Velocity": "m/s", "Stress": "Pa", "Energy": "J", "Work": "J", "Distance": "m"}
 
@@ -52,12 +51,8 @@ class Result:
         self.reference = np.stack([self.file.variables["coord" + c][:] for c in "xyz"], axis=1)
         self.nodal, self.elemental = names_in(self.file, "name_nod_var"), names_in(self.file, "name_elem_var")
         self.names = without_components(self.nodal + self.elemental)
-        self.blocks = [self._block(i + 1, name) for i, name in enumerate(self._block_names())]
-
-    def _block_names(self):
-        count = len(self.file.dimensions["num_el_blk"])
-        names = names_in(self.file, "eb_names") or [""] * count
-        return [name or f"block_{i + 1}" for i, name in enumerate(names)]
+        names = names_in(self.file, "eb_names") or [""] * len(self.file.dimensions["num_el_blk"])
+        self.blocks = [self._block(number, name or f"block_{number}") for number, name in enumerate(names, 1)]
 
     def _block(self, number, name):
         if f"connect{number}" not in self.file.variables:
@@ -79,9 +74,8 @@ class Result:
         if name + "X" in self.nodal and name + "Y" in self.nodal and name + "Z" in self.nodal:
             return np.sqrt(sum(self._column(name + c, frame)**2 for c in "XYZ"))
         if name not in self.elemental:
-            near = difflib.get_close_matches(name, self.names + self.nodal, 1, 0.5)
-            hint = f" (did you mean '{near[0]}'?)" if near else ""
-            fail(f"{self.path} has no variable '{name}'{hint}; it has {', '.join(self.names) or 'none'}")
+            near = nearest(name, self.names + self.nodal, 0.5)
+            fail(f"{self.path} has no variable '{name}'{near}; it has {', '.join(self.names) or 'none'}")
         value = np.full(len(self.reference), np.nan)
         for block in self.blocks:
             column = f"vals_elem_var{self.elemental.index(name) + 1}eb{block.number}"

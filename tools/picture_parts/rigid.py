@@ -20,7 +20,10 @@ class Tool:
         self.name, self.keys, self.deck = name, keys, deck
         self.kind = value_in(keys, "Type")
         self.mass = self.number("Mass", None)
-        self.flight = None if self.mass is None else self._flight()
+        self.flight = None
+        if self.mass is not None:  # its path follows from the forces on it in the deck's history
+            table = history(self.deck.get("History", "Filename", default="a History, which this tool needs,"))
+            self.flight = table["Time"], [self._way(c, table["Time"], table) for c in "XYZ"]
 
     def number(self, key, default):
         text = value_in(self.keys, key)
@@ -43,13 +46,8 @@ class Tool:
         travel = [(f"Travel {c}", value_in(self.keys, f"Travel {c}")) for c in "XYZ"]
         return np.array([0.0 if text is None else self._at(key, text, t) for key, text in travel])
 
-    def _flight(self):
-        """Path of a tool with a mass, from the forces on it in the deck's history: times, and the displacement along each axis."""
-        table = history(self.deck.get("History", "Filename", default="a History, which this tool needs,"))
-        times = table["Time"]
-        return times, [self._way(c, times, table) for c in "XYZ"]
-
     def _way(self, c, times, table):
+        """Its displacement along an axis at these times."""
         force = value_in(self.keys, f"Force {c}")
         speed = self.number(f"Speed {c}", 0.0)
         column = f"Reaction_{c}({self.name})"

@@ -1,7 +1,4 @@
 """Three slices through the middle of a scan, and of the solid made from it."""
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 

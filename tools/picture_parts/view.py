@@ -37,13 +37,6 @@ class Wanted:
     tools: tuple = ()  # of rigid.tools_of
 
 
-def variables_of(result, wanted):
-    if wanted.variables:
-        return wanted.variables
-    there = [name for name in USUAL if result.has(name)]
-    return there or ["Displacement"]
-
-
 def frames_of(result, wanted):
     if wanted.times:
         for t in wanted.times:
@@ -74,16 +67,11 @@ def kept(result, block, clip, towards):
     return block.nodes[here <= plane if towards[axis] > 0 else here >= plane]
 
 
-def hidden_points(result, frame, hide):
-    """True for each point at which a variable exceeds a value: damage, for example, to see into cracks."""
-    if not hide:
-        return np.zeros(len(result.reference), bool)
-    name, most = hide
-    return np.nan_to_num(result.values(name, frame)) > most
-
-
 def surface_of_blocks(result, blocks, wanted, frame):
-    parts, hidden = [], hidden_points(result, frame, wanted.hide)
+    parts, hidden = [], np.zeros(len(result.reference), bool)
+    if wanted.hide:  # points at which a variable exceeds a value: damage, for example, to see into cracks
+        name, most = wanted.hide
+        hidden = np.nan_to_num(result.values(name, frame)) > most
     for block in blocks:
         nodes = kept(result, block, wanted.clip, wanted.view)
         nodes = nodes[~hidden[nodes]]
@@ -155,7 +143,8 @@ class Scene:
         if len(result.reference) > MOST_POINTS:
             fail(f"{result.path} has {len(result.reference)} points, of which {MOST_POINTS} can be drawn")
         blocks, named = blocks_of(result, wanted.blocks), [b.name for b in blocks_of(result, wanted.glass)]
-        self.rows = [Row(result, name, self.frames) for name in variables_of(result, wanted)]
+        variables = wanted.variables or [name for name in USUAL if result.has(name)] or ["Displacement"]
+        self.rows = [Row(result, name, self.frames) for name in variables]
         idle = {name for row in self.rows for name in row.idle(blocks)}
         glass = named if wanted.glass else idle if wanted.glass is None else []
         for row in self.rows:

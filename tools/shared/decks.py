@@ -12,15 +12,19 @@ from strut_tools import fail, nearest, program
 NUMBER = r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,2})?\s*"
 
 
+def text_of(path):
+    try:
+        with open(path, encoding="utf-8-sig") as file:
+            return file.read()
+    except (OSError, UnicodeDecodeError) as error:
+        fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
+
+
 class Deck:
     def __init__(self, path):
-        self.path = path
+        self.path, self.text = path, text_of(path)
         try:
-            with open(path) as file:
-                self.text = file.read()
             self.root = tree.fromstring(self.text)
-        except (OSError, UnicodeDecodeError) as error:
-            fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
         except tree.ParseError as error:
             fail(f"{path} is not a deck (XML): {error}")
         here = os.path.dirname(os.path.abspath(path))  # value_at() is asked elsewhere
@@ -52,10 +56,10 @@ class Deck:
         return value and os.path.join(os.path.dirname(self.path), value)
 
     def recipe(self):
-        """The path of the recipe of its mesh; None where there is none."""
+        """The recipe of its mesh; None where there is none."""
         mesh = self.file("Discretization", "Input Mesh File")
         recipe = mesh and os.path.splitext(mesh)[0] + ".recipe"
-        return recipe if recipe and os.path.isfile(recipe) else None
+        return Recipe(recipe) if recipe and os.path.isfile(recipe) else None
 
     @classmethod
     def of(cls, path, text):
@@ -121,12 +125,7 @@ class Recipe:
     """Lines `key = value` in bodies; those before the first `[body]` hold for all."""
 
     def __init__(self, path):
-        self.path = path
-        try:
-            with open(path, encoding="utf-8-sig") as file:
-                self.text = file.read()
-        except (OSError, UnicodeDecodeError) as error:
-            fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
+        self.path, self.text = path, text_of(path)
 
     def bodies(self):
         """{key: value} of each body."""
@@ -144,19 +143,16 @@ class Recipe:
         """The text with another value of a key, `key` or `body.key`; without the line where the value is empty."""
         body, _, name = key.rpartition(".")
         lines, number, found, named = self.text.splitlines(), -1, [], []
-        wanted = [i for i, keys in enumerate(self.bodies()) if not body or keys.get("name", "body") == body]
-        if not wanted:
-            names = [keys.get("name", "body") for keys in self.bodies()]
+        names = [keys.get("name", "body") for keys in self.bodies()]
+        if body and body not in names:
             fail(f"{self.path}: there is no body '{body}'{nearest(body, names)}; there are {', '.join(names)}")
-        several = "[body]" in [line.split("#")[0].strip() for line in lines]
         for i, line in enumerate(lines):
             bare = line.split("#")[0].strip()
             number += bare == "[body]"
-            if "=" not in bare or not (max(number, 0) in wanted or (several and number < 0 and not body)):
-                continue
-            named.append(bare.split("=")[0].strip())
-            if named[-1] == name:
-                found.append(i)
+            if "=" in bare and (not body or names[max(number, 0)] == body):
+                named.append(bare.split("=")[0].strip())
+                if named[-1] == name:
+                    found.append(i)
         if not found:
             fail(f"{self.path}: there is no line '{key}'{nearest(name, named)}; there are {', '.join(dict.fromkeys(named))}")
         for i in reversed(found):
@@ -167,11 +163,10 @@ class Recipe:
         return "\n".join(lines) + "\n"
 
     def body(self, name=None):
-        """The keys of the body of this name; without one, of the only one; else None."""
+        """The keys of the body of this name, else of the only one; None where there are several."""
         bodies = self.bodies()
-        if name is None:
-            return bodies[0] if len(bodies) == 1 else None
-        return next((keys for keys in bodies if keys.get("name", "body") == name), None)
+        named = [keys for keys in bodies if keys.get("name", "body") == name]
+        return named[0] if named else bodies[0] if len(bodies) == 1 else None
 
 
 # Expressions: the language of decks (inputs/KEYS.md), as the program reads it: strut-evaluate is asked

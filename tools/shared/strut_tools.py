@@ -13,12 +13,21 @@ import subprocess
 import sys
 import tempfile
 
+os.environ["MPLBACKEND"] = "Agg"  # figures need no screen
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
 def fail(text):
     """Ends the tool with one line that names it, and status 1."""
     sys.exit(f"tools/{os.path.basename(sys.argv[0])}: {text}")
+
+
+def run(main):
+    """A tool: an error of a file is one line."""
+    try:
+        main()
+    except OSError as error:
+        fail(str(error))
 
 
 def install_missing(packages):
@@ -46,9 +55,9 @@ def install_missing(packages):
 # The command line
 
 
-def nearest(word, words):
+def nearest(word, words, likeness=0.6):
     """" (did you mean 'x'?)", or nothing."""
-    close = difflib.get_close_matches(word, words, 1)
+    close = difflib.get_close_matches(word, words, 1, likeness)
     return f" (did you mean '{close[0]}'?)" if close else ""
 
 
@@ -111,14 +120,6 @@ class Parser(argparse.ArgumentParser):
 # created anew, never written through a link
 
 
-def same_file(one, other):
-    """True if both names denote one file, through links and hard links."""
-    try:
-        return os.path.samefile(one, other)
-    except OSError:  # one of them does not exist
-        return False
-
-
 def check_output(path, *read):
     """Checks an output path before the work is done. `read`: the input files."""
     folder = os.path.dirname(path) or "."
@@ -127,7 +128,7 @@ def check_output(path, *read):
     if not os.path.isdir(folder):
         fail(f"{path} cannot be written: there is no folder {folder}")
     for file in read:
-        if same_file(path, file):
+        if os.path.exists(path) and os.path.exists(file) and os.path.samefile(path, file):  # through links
             fail(f"{path} is {file}, which is read: expected another file to write" if path != file else
                  f"{path} is read: expected another file to write")
 

@@ -1,10 +1,6 @@
-"""Tables and the picture of a stiffness."""
-import matplotlib
-
-matplotlib.use("Agg")
+"""The text and the picture of a stiffness."""
 import matplotlib.pyplot as plt
 import numpy as np
-from strut_tools import write_table
 
 from . import tensors
 from .loads import ORDER
@@ -23,11 +19,6 @@ def text_of(kind, C, energy):
               f"universal anisotropy {tensors.anisotropy(C):.4g}, Zener {tensors.zener(C):.4g}; off symmetry by "
               f"{tensors.asymmetry(C):.1e}, energies off 1/2 strain C strain by {energy:.1e}"]
     return "\n".join(lines)
-
-
-def write(path, found):
-    write_table(path, ["Boundaries", "Row", *[f"{c} (Pa)" for c in ORDER]],
-                [[kind, c, *row] for kind, (C, _) in found.items() for c, row in zip(ORDER, C)])
 
 
 def figure(path, title, found):

@@ -49,12 +49,3 @@ def young(C, directions):
     x, y, z = directions.T
     nn = np.stack([x * x, y * y, z * z, y * z, z * x, x * y], axis=1)  # engineering strains: S takes twice the half
     return 1 / np.einsum("ni,ij,nj->n", nn, np.linalg.inv(symmetric(C)), nn)
-
-
-def isotropic(young_modulus, ratio):
-    """For checks."""
-    la = young_modulus * ratio / ((1 + ratio) * (1 - 2 * ratio))
-    mu = young_modulus / (2 * (1 + ratio))
-    C = np.diag([2 * mu] * 3 + [mu] * 3)
-    C[:3, :3] += la
-    return C

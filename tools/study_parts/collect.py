@@ -5,13 +5,10 @@ import re
 import subprocess
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from decks import Deck, value_of
-from strut_tools import ROOT, fail, history_of, nearest, number, write_table
+from strut_tools import ROOT, fail, history_of, number, write_table
 
 FACTS = {"points": r"^([\d,]+) points,", "steps": r"^(\d+) (?:load )?steps,", "seconds": r"^whole run +([\d.]+)",
          "balance_error": r"balance error ([\d.e+-]+)"}
@@ -30,21 +27,18 @@ def last_row(case):
     path = name and os.path.join(case.folder, name)
     if not path or not os.path.isfile(path):
         return {}
-    rows = history_of(path)
-    return rows[-1] if rows else {}
+    return history_of(path)[-1]
 
 
 def measures_of(case, options):
     """The measures of tools/curve; its files stay in the folder of the case."""
-    stem = os.path.splitext(case.deck)[0]
-    path = os.path.join(case.folder, f"{stem}-measures.csv")
     command = [sys.executable, os.path.join(ROOT, "tools/curve"), case.deck, *options.split()]
     done = subprocess.run(command, cwd=case.folder, capture_output=True, text=True)
     with open(os.path.join(case.folder, "curve.log"), "w") as file:
         file.write(done.stdout + done.stderr)
     if done.returncode != 0:
         return {}, done.stderr.strip()
-    with open(path, newline="") as file:
+    with open(os.path.join(case.folder, os.path.splitext(case.deck)[0] + "-measures.csv"), newline="") as file:
         return {row["Measure"]: (float(row["Value"]) if row["Value"] else None, row["Unit"])
                 for row in csv.DictReader(file)}, None
 
@@ -63,8 +57,8 @@ def rows_of(study, cases):
             row.update({name: value for name, (value, _) in found.items()} if not study.collect else {})
             known.update({name: value for name, (value, _) in found.items()})
         for name in study.collect:
-            if known and name not in known:
-                fail(f"{study.path}: there is no '{name}' to collect{nearest(name, list(known))}; there are {', '.join(known)}")
+            if known:
+                study.expect(name, list(known), "to collect")
             row[name] = known.get(name)
         rows.append(row)
     return rows, units
@@ -92,8 +86,7 @@ def figure(path, study, rows, units):
     for axes, plot in zip(panels[0], plots):
         for name in (plot.x, plot.y, plot.by):
             if name and not any(name in row for row in rows):
-                names = [n for n in rows[0] if n != "error"]
-                fail(f"{study.path}: there is no '{name}' to plot{nearest(name, names)}; there are {', '.join(names)}")
+                study.expect(name, [n for n in rows[0] if n != "error"], "to plot")
         draw(axes, plot, rows)
         for axis, name in ((axes.set_xlabel, plot.x), (axes.set_ylabel, plot.y)):
             axis(name.replace("_", " ") + (f", {units[name]}" if name in units else ""))

@@ -22,14 +22,9 @@ def row_of_measure(name, kind, measure, values, unit, theory):
     row = {**kind.values, "measure": measure, "unit": unit}
     for n in range(3):
         row[f"{name}_{n + 1}"], row[f"value_{n + 1}"] = pairs[n] if n < len(pairs) else (None, None)
-    numbers = (found.order, found.limit, found.bar, found.percent(known[0]) if known else None, found.safety,
-               spread(known))
+    spread = 100 * (max(known) - min(known)) / abs(known[0]) if len(known) > 1 and known[0] != 0 else None
+    numbers = (found.order, found.limit, found.bar, found.percent(known[0]) if known else None, found.safety, spread)
     return {**row, **dict(zip(NUMBERS, numbers)), "finding": found.finding}
-
-
-def spread(values):
-    """The spread of the values on the grids, in % of the finest grid's."""
-    return 100 * (max(values) - min(values)) / abs(values[0]) if len(values) > 1 and values[0] != 0 else None
 
 
 def text(name, kinds, rows, theory):

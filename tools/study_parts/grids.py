@@ -48,7 +48,7 @@ def refine(study, ratio, count):
     if graded:
         fail(f"{recipe.path}: the layers of '{graded.get('name', 'body')}' are graded: expected a study that sets spacing, grading, "
              "uniform and coarsest for each grid")
-    first = float(main_body(bodies)["spacing"])
+    first = float(main_body(recipe)["spacing"])
     study.vary.append((["spacing"], [[f"{first / ratio**n:.6g}"] for n in range(count)]))
     if len({float(body["spacing"]) for body in bodies}) == 1:
         study.sets.append((True, "spacing", "{spacing}"))
@@ -61,16 +61,13 @@ def spaced(recipe):
     return [body for body in recipe.bodies() if "spacing" in body] if recipe else []
 
 
-def main_body(bodies):
+def main_body(recipe):
+    """The (first) foam, else the first body, with a spacing; empty where there is none."""
+    bodies = spaced(recipe) or [{}]
     return next((body for body in bodies if body.get("shape") == "foam"), bodies[0])
 
 
 # Spacings
-
-
-def asked_of(recipe):
-    bodies = spaced(recipe)
-    return main_body(bodies)["spacing"] if bodies else None
 
 
 def whole(x):
@@ -80,10 +77,7 @@ def whole(x):
 def spacing_of(recipe):
     """The spacing that strut-mesh uses for the (first) foam, else for the first body: an integer number of cells along
     each side; the cube root of the volume of a cell (tools/mesh). None if no line gives it."""
-    bodies = spaced(recipe)
-    if not bodies:
-        return None
-    body = main_body(bodies)
+    body = main_body(recipe)
     try:
         h = float(body["spacing"])
         if body.get("shape") in ("box", "foam", "lattice"):
@@ -94,14 +88,14 @@ def spacing_of(recipe):
         radius = 0.5 * (float(body["radius"]) + float(body.get("top_radius", body["radius"])))
         return (math.pi * (radius / (2 * whole(radius * math.sqrt(math.pi) / h / 2)))**2 * layer)**(1 / 3)
     except (KeyError, ValueError, ZeroDivisionError):
-        return None  # strut-mesh reports the error
+        return None  # strut-mesh reports an error
 
 
 def sizes_of(study, name, cases):
     """The spacings as meshed if the recipe's spacing varies, else the values themselves."""
     recipes = [plan.files_of(study, case.values)[1] for case in cases]
     sizes = [spacing_of(recipe) for recipe in recipes]
-    if len(set(map(asked_of, recipes))) == 1 or None in sizes:
+    if len({main_body(recipe).get("spacing") for recipe in recipes}) == 1 or None in sizes:
         sizes = [number(case.values[name]) for case in cases]
     for size, case in zip(sizes, cases):
         if size is None or not 0 < size < math.inf:
@@ -198,12 +192,11 @@ def plan_of(name, kinds, ranks):
             counts = " | ".join("unknown" if n is None else f"{n:,.0f}" for n in (points, steps))
             lines.append(f"| {plan.name_of(case.values)} | {size:.6g} | {counts} | {time} |")
     lines.append(f"Predicted from {' and '.join(dict.fromkeys(bases))}; cells grow as h^-3, steps as h^-1, time as h^-4.")
+    if None in left:
+        ratio = max((kind.sizes[-1] / kind.sizes[0])**4 for kind in kinds)
+        time = f"time unknown, the finest {ratio:.3g} times that of the coarsest"
+    elif left:
+        time = f"{duration(sum(left))} one after the other, the dearest {duration(max(left))}"
     if left:
-        lines.append(f"{len(left)} of {sum(len(kind.cases) for kind in kinds)} left: "
-                     + ("time unknown, " + ratio_said(kinds) if None in left else
-                        f"{duration(sum(left))} one after the other, the dearest {duration(max(left))}"))
+        lines.append(f"{len(left)} of {sum(len(kind.cases) for kind in kinds)} left: {time}")
     return "\n".join(lines)
-
-
-def ratio_said(kinds):
-    return f"the finest {max((kind.sizes[-1] / kind.sizes[0])**4 for kind in kinds):.3g} times that of the coarsest"

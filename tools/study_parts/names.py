@@ -35,24 +35,19 @@ def measures_of(study):
     return [m.name for m in measures.of_curve(np.linspace(0, 0.1, 5), np.linspace(0, 1, 5))] + list(shock.MEASURES)
 
 
-def expect(study, name, known, what):
-    if name not in known:
-        fail(f"{study.path}: there is no '{name}' {what}{nearest(name, known)}; there are {', '.join(known)}")
-
-
 def check(study, deck):
     """Ends the tool if a name in `collect`, `plot` or `curve` will not exist in a run of the deck."""
     columns, read = columns_of(deck), measures_of(study)
     if study.curve is not None:
         check_curve(study, columns)
     for name in study.collect:
-        expect(study, name, columns + read, "to collect")
+        study.expect(name, columns + read, "to collect")
     varied = [name for names, _ in study.vary for name in names]
     known = list(dict.fromkeys(varied + list(FACTS) + (study.collect or read)))
     for plot in study.plots:
         for name in (plot.x, plot.y, plot.by):
             if name:
-                expect(study, name, known, "to plot")
+                study.expect(name, known, "to plot")
         check_beside(study, plot, known)
 
 

@@ -4,7 +4,7 @@ import os
 import re
 from dataclasses import dataclass, field
 
-from decks import Deck, Recipe, value_of
+from decks import Deck, text_of, value_of
 from strut_tools import check_input, fail, nearest, number
 
 KEYS = ("deck", "vary NAME", "set KEY", "set recipe LINE", "curve", "collect", "plot")
@@ -33,17 +33,17 @@ class Study:
         lines = [[dict(zip(names, values)) for values in all_values] for names, all_values in self.vary]
         return [{k: v for part in parts for k, v in part.items()} for parts in itertools.product(*lines)]
 
+    def expect(self, name, known, what):
+        if name not in known:
+            fail(f"{self.path}: there is no '{name}' {what}{nearest(name, known)}; there are {', '.join(known)}")
+
 
 def read(path, converge=None):
     """Reads a study from a file. With `converge` it need not vary or collect anything: the recipe's spacing varies."""
     study = Study(path)
     check_input(path)
-    try:
-        with open(path, encoding="utf-8-sig") as file:
-            lines = [line.split("#")[0].strip() for line in file]
-    except (OSError, UnicodeDecodeError) as error:
-        fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
-    for n, line in enumerate(lines, 1):
+    for n, line in enumerate(text_of(path).split("\n"), 1):
+        line = line.split("#")[0].strip()
         if line:
             take(study, f"{path}, line {n}", *(part.strip() for part in line.partition("=")[::2]))
     if not study.deck or not (study.vary or converge):
@@ -126,7 +126,7 @@ def filled(text, case, where):
 def files_of(study, case):
     """The texts of a case: its deck, and its recipe (None if it has none)."""
     deck = Deck(study.deck)
-    recipe = deck.recipe() and Recipe(deck.recipe())
+    recipe = deck.recipe()
     for in_recipe, key, value in study.sets:
         value = filled(value, case, f"{study.path}, set {key}")
         if not in_recipe:

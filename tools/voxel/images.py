@@ -17,7 +17,6 @@ from strut_tools import captured, check_input, fail, nearest
 VTK_READERS = {".mhd": ("vtkIOImage", "vtkMetaImageReader"), ".mha": ("vtkIOImage", "vtkMetaImageReader"),
                ".vti": ("vtkIOXML", "vtkXMLImageDataReader"), ".vtk": ("vtkIOLegacy", "vtkStructuredPointsReader")}
 TIFF = (".tif", ".tiff")
-NUMPY = (".npy",)
 TEXT = (".pts", ".txt", ".xyz", ".dat")
 SCANCO = (".aim", ".isq")
 RAW_TYPES = {"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4", "float32": "f4",
@@ -81,17 +80,17 @@ def read(path, raw=None, array=None, unit=None):
         return checked(path, *nrrd.read(path), ending, unit)
     if ending in VTK_READERS:
         values, image = by_vtk(path, *VTK_READERS[ending], array)
-        directions = orientation.of_vtk(image)
+        directions = np.reshape(image.GetDirectionMatrix().GetData(), (3, 3)).T
         if ending in headers.META_IMAGE:
             headers.check_meta_image(path, values)
             directions = orientation.of_meta_image(path, headers.head_of(path))
         return checked(path, *orientation.oriented(path, values, image.GetSpacing(), directions), ending, unit)
-    if ending in NUMPY:
+    if ending == ".npy":
         return Image(numpy_array(path).transpose(), None, "NumPy's array [x, y, z]")
     if ending in TEXT:
         solid, spacing = points.lattice(path)
         return Image(solid, spacing, "list of points")
-    known = [*headers.NRRD, *VTK_READERS, *TIFF, *SCANCO, *NUMPY, ".stl", *TEXT]
+    known = [*headers.NRRD, *VTK_READERS, *TIFF, *SCANCO, ".npy", ".stl", *TEXT]
     fail(f"{path}: '{ending}' is not a format that is known{nearest(ending, known)}; there are {' '.join(known)} "
          "(lists of points also .gz), and any file with --shape and --type")
 
@@ -154,9 +153,10 @@ def tiff(path):
     if said.error():  # the rest of a truncated file may still consist of equal pages
         fail(f"{path} is damaged: {said.error()}")
     if wrong is not None and "imagecodecs" in str(wrong):  # a compression that needs a library missing in Debian
-        return tiff_by_vtk(path), None, "TIFF"
+        return by_vtk(path, "vtkIOImage", "vtkTIFFReader", None)[0], None, "TIFF"  # rows in the order of tifffile
     if wrong is not None or (values is None and series == 0):
-        fail(f"{path} is not a TIFF image, or is damaged: {one_line(wrong or said.text) or 'it has no pages'}")
+        told = str(wrong or said.text).strip().splitlines() or [type(wrong).__name__ if wrong else "it has no pages"]
+        fail(f"{path} is not a TIFF image, or is damaged: {told[0]}")
     if color:
         fail(f"{path} has several numbers a voxel (colors?), expected one")
     if values is None or (values.ndim not in (2, 3)):
@@ -174,17 +174,6 @@ def darkened(path, values):
     return np.iinfo(values.dtype).max - values
 
 
-def one_line(what):
-    return (str(what).strip().splitlines() or [type(what).__name__])[0]
-
-
-def tiff_by_vtk(path):
-    values, _ = by_vtk(path, "vtkIOImage", "vtkTIFFReader", None)
-    if values.ndim != 3:
-        fail(f"{path} has several numbers a voxel (colors?), expected one")
-    return values  # rows in the order of tifffile
-
-
 def slices(names, where):
     if not names:
         fail(f"{where}: no TIFF images there (.tif, .tiff)")
@@ -199,8 +188,8 @@ def slices(names, where):
         page, _, kind = tiff(name)
         values = np.empty((len(names), *page.shape[1:]), page.dtype) if values is None else values
         if page.shape != (1, *values.shape[1:]) or page.dtype != values.dtype:
-            fail(f"{name} has {shape_text(page)} voxels of {page.dtype}, expected {values.shape[2]} x "
-                 f"{values.shape[1]} x 1 of {values.dtype} as in {names[0]}")
+            fail(f"{name} has {' x '.join(map(str, page.shape[::-1]))} voxels of {page.dtype}, expected "
+                 f"{values.shape[2]} x {values.shape[1]} x 1 of {values.dtype} as in {names[0]}")
         values[z] = page[0]
     return Image(values, None, f"{len(names)} slices, {kind}{gap_in(names)}")
 
@@ -223,28 +212,18 @@ def gap_in(names):
     return ""
 
 
-def shape_text(values):
-    return " x ".join(map(str, values.shape[::-1]))
-
-
 # MetaImage and VTK's own
-
-
-def check_whole(path, ending):
-    """Detects truncated images, which VTK's reader of XML accepts."""
-    if ending != ".vti":
-        return
-    with open(path, "rb") as file:
-        file.seek(max(0, os.path.getsize(path) - 64))
-        if b"</VTKFile>" not in file.read():
-            fail(f"{path} is damaged: it does not end with </VTKFile>")
 
 
 def by_vtk(path, module, name, array):
     """The array and the image that it came from."""
     import importlib
 
-    check_whole(path, ending_of(path))
+    if ending_of(path) == ".vti":  # VTK's reader of XML accepts truncated ones
+        with open(path, "rb") as file:
+            file.seek(max(0, os.path.getsize(path) - 64))
+            if b"</VTKFile>" not in file.read():
+                fail(f"{path} is damaged: it does not end with </VTKFile>")
     reader = getattr(importlib.import_module("vtkmodules." + module), name)()
     with captured() as said:
         reader.SetFileName(path)

@@ -85,31 +85,22 @@ def unpacked(path, fields, content):
     code = TYPES.get(fields["type"].lower())
     if code is None:
         fail(f"{path}: its type '{fields['type']}' is none of numbers that are known: {', '.join(TYPES)}")
-    encoding = fields["encoding"].lower()
     for _ in range(whole(path, fields, "line skip")):
         content = content[content.find(b"\n") + 1:]
-    if encoding in ("gzip", "gz"):
-        content = gunzipped(path, content)
-    elif encoding in ("bzip2", "bz2"):
-        try:
+    encoding = fields["encoding"].lower()
+    try:
+        if encoding in ("ascii", "text", "txt"):
+            return written_out(content, code, fields["type"])
+        if encoding in ("gzip", "gz"):
+            content = gunzipped(content)
+        elif encoding in ("bzip2", "bz2"):
             content = bz2.decompress(content)
-        except (OSError, ValueError) as error:
-            fail(f"{path} is damaged: {error}")
-    elif encoding in ("ascii", "text", "txt"):
-        try:
-            numbers = np.array(content.split(), "i8" if code[0] in "iu" else code)
-            if code[0] in "iu" and (numbers.astype(code) != numbers).any():
-                raise OverflowError(f"{numbers[numbers.astype(code) != numbers][0]} is no number of type {fields['type']}")
-            return numbers.astype(code)
-        except (ValueError, OverflowError) as error:
-            fail(f"{path} is damaged: {error}")
-    elif encoding == "hex":
-        try:
+        elif encoding == "hex":
             content = bytes.fromhex(content.decode("latin-1"))
-        except ValueError as error:
-            fail(f"{path} is damaged: {error}")
-    elif encoding != "raw":
-        fail(f"{path}: its encoding '{fields['encoding']}' is not known; expected raw, gzip, bzip2, ascii or hex")
+        elif encoding != "raw":
+            fail(f"{path}: its encoding '{fields['encoding']}' is not known; expected raw, gzip, bzip2, ascii or hex")
+    except (OSError, ValueError, OverflowError, zlib.error) as error:
+        fail(f"{path} is damaged: {error}")
     kind = np.dtype(order_of(path, fields, code) + code)
     skip = whole(path, fields, "byte skip")
     content = content[-count_of(path, fields) * kind.itemsize if skip == -1 else skip:]
@@ -134,25 +125,35 @@ def order_of(path, fields, code):
     return "<" if order == "little" else ">"
 
 
-def gunzipped(path, content):
+def written_out(text, code, name):
+    numbers = np.array(text.split(), "i8" if code[0] in "iu" else code)
+    beyond = numbers[numbers.astype(code) != numbers]
+    if code[0] in "iu" and len(beyond):
+        raise OverflowError(f"{beyond[0]} is no number of type {name}")
+    return numbers.astype(code)
+
+
+def gunzipped(content):
     out = b""
     while content.startswith(b"\x1f\x8b") or not out:  # several streams, one after the other, are one
         unpacker = zlib.decompressobj(31)
-        try:
-            out += unpacker.decompress(content)
-        except zlib.error as error:
-            fail(f"{path} is damaged: {error}")
+        out += unpacker.decompress(content)
         if not unpacker.eof:
-            fail(f"{path} is damaged: its gzip stream is cut off")
+            raise ValueError("its gzip stream is cut off")
         content = unpacker.unused_data
     return out
 
 
-def sizes_of(path, fields):
+def numbers_in(text, kind):
+    """None of them where a word is no number."""
     try:
-        sizes = [int(word) for word in fields["sizes"].split()]
+        return [kind(word) for word in text.split()]
     except ValueError:
-        sizes = []
+        return []
+
+
+def sizes_of(path, fields):
+    sizes = numbers_in(fields["sizes"], int)
     if len(sizes) != whole(path, fields, "dimension") or not sizes or min(sizes) < 1:
         fail(f"{path} is damaged: dimension {fields['dimension']} and sizes {fields['sizes']}")
     return sizes
@@ -206,21 +207,17 @@ def spacing_of(path, fields):
     """None if the file has no spacing."""
     directions = directions_of(path, fields)
     if directions is None:
-        words = fields.get("spacings", "").split()
-        if not words:
+        if not fields.get("spacings"):
             return None
-        try:
-            numbers = [float(word) for word in words]
-        except ValueError:
-            numbers = []
+        numbers = numbers_in(fields["spacings"], float)
         if len(numbers) != len(sizes_of(path, fields)):
             fail(f"{path}: spacings '{fields['spacings']}', expected a number for each axis")
         found = [abs(n) for n, across in zip(numbers, axes_of(path, fields, sizes_of(path, fields))) if across]
     else:
         axes = [d for d in directions if d is not None]
         found = [float(np.linalg.norm(d)) for d in axes]
-        for a, one in enumerate(axes):
-            for b in range(a):
-                if abs(one @ axes[b]) > OBLIQUE * found[a] * found[b]:
-                    fail(f"{path}: its axes are not at right angles ('space directions'), expected voxels that are boxes: resample it")
+        oblique = np.abs(np.inner(axes, axes)) > OBLIQUE * np.outer(found, found)
+        if np.triu(oblique, 1).any():
+            fail(f"{path}: its axes are not at right angles ('space directions'), expected voxels that are boxes: "
+                 "resample it")
     return tuple((found + found[-1:])[:3])

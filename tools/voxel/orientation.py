@@ -17,11 +17,6 @@ def of_meta_image(path, head):
     return np.reshape(numbers, (3, 3)) if len(numbers) == 9 else None
 
 
-def of_vtk(image):
-    matrix = image.GetDirectionMatrix()
-    return np.array([[matrix.GetElement(row, axis) for row in range(3)] for axis in range(3)])
-
-
 def oriented(path, values, spacing, directions):
     """The array (z, y, x) and the spacing (x, y, z) in space. `directions`: a vector for each axis of the image, the
     fastest first; None: they are those of space."""

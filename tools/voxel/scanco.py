@@ -69,7 +69,9 @@ def values_of(path, data, kind, shape, size):
     packed = int(np.frombuffer(data[:size].ljust(size, b"\0"), "<i8" if size == 8 else "<i4")[0])
     if not 0 <= packed <= len(data):
         cut_off(path, len(data), packed)
-    found = (runs_of_bits if kind == RUNS_OF_BITS else runs_of_bytes)(np.frombuffer(data[size:packed], np.uint8))
+    runs = np.frombuffer(data[size:packed], np.uint8)
+    # Bytes come as pairs of run length and value.
+    found = runs_of_bits(runs) if kind == RUNS_OF_BITS else np.repeat(runs[1::2], runs[0:2 * (len(runs) // 2):2])
     if len(found) < count:
         cut_off(path, len(found), count)
     return found[:count].view(np.int8).reshape(shape)
@@ -97,11 +99,6 @@ def runs_of_bits(data):
     lengths = data[2:]
     turns = np.concatenate([[0], np.cumsum(lengths != 255)])[:len(lengths)] % 2
     return np.repeat(data[:2][turns], np.where(lengths == 255, 254, lengths))
-
-
-def runs_of_bytes(data):
-    """Pairs of run length and value."""
-    return np.repeat(data[1::2], data[0:2 * (len(data) // 2):2])
 
 
 def isq(path, data):

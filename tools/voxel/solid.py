@@ -40,6 +40,11 @@ def two_valued(values):
     return all(((layer == low) | (layer == high)).all() for layer in values)
 
 
+def check_finite(path, values):
+    if not np.isfinite(values).all():
+        fail(f"{path}: {np.count_nonzero(~np.isfinite(values))} voxels are not finite")
+
+
 def solid_of(path, values, threshold, invert, may_fill=False):
     """Solid or not, and a sentence about the method. threshold None: Otsu's if there are more than two values. may_fill: all may be solid."""
     if values.dtype == bool:
@@ -48,8 +53,7 @@ def solid_of(path, values, threshold, invert, may_fill=False):
         return values, "none needed: the list says what is solid"
     if not np.issubdtype(values.dtype, np.number) or np.iscomplexobj(values):
         fail(f"{path} has values of type {values.dtype}, expected numbers")
-    if np.issubdtype(values.dtype, np.floating) and not np.isfinite(values).all():
-        fail(f"{path}: {np.count_nonzero(~np.isfinite(values))} voxels are not finite")
+    check_finite(path, values)
     low, high = values.min(), values.max()
     if low == high and not may_fill:
         fail(f"{path}: all voxels have the value {low:g}, so that nothing tells solid from void")
@@ -71,8 +75,7 @@ def materials_of(path, values, ranges):
     """The number of each voxel's material, 1, 2, …; 0: void. ranges: (name, low, high), for low < value <= high."""
     if values.dtype == bool:
         fail(f"{path} says itself which voxels are solid: --material does not apply")
-    if np.issubdtype(values.dtype, np.floating) and not np.isfinite(values).all():
-        fail(f"{path}: {np.count_nonzero(~np.isfinite(values))} voxels are not finite")
+    check_finite(path, values)
     out = np.zeros(values.shape, np.uint8)
     for number, (name, low, high) in enumerate(ranges, 1):
         there = (values > low) & (values <= high)
@@ -167,12 +170,13 @@ def coarsened(solid, n):
     counts = [size // n for size in solid.shape]
     if 0 in counts:
         fail(f"--coarsen {n}: the image has only {' x '.join(map(str, solid.shape[::-1]))} voxels")
-    cz, cy, cx = counts
-    out = np.empty(counts, bool)
-    for z in range(cz):
-        slab = solid[z * n:(z + 1) * n, :cy * n, :cx * n].reshape(n, cy, n, cx, n)
-        out[z] = 2 * slab.sum(axis=(0, 2, 4), dtype=np.int64) >= n**3
-    return out
+    return 2 * blockwise(solid, counts, n).sum(axis=(1, 3, 5), dtype=np.int64) >= n**3
+
+
+def blockwise(values, counts, n):
+    """A view of the first n^3 voxels in each of the counts: [z, n, y, n, x, n]."""
+    cut = values[tuple(slice(n * count) for count in counts)]
+    return cut.reshape([size for count in counts for size in (count, n)])
 
 
 def coarsened_materials(materials, n):
@@ -180,15 +184,10 @@ def coarsened_materials(materials, n):
     solid = coarsened(materials > 0, n)
     best, out = np.zeros(solid.shape, np.int64), np.zeros(solid.shape, np.uint8)
     for number in range(1, int(materials.max()) + 1):
-        cut = tuple(slice(n * size) for size in solid.shape)
-        counts = (materials[cut] == number).reshape([m for size in solid.shape for m in (size, n)]).sum(axis=(1, 3, 5))
+        counts = blockwise(materials == number, solid.shape, n).sum(axis=(1, 3, 5))
         out[counts > best] = number
         best = np.maximum(best, counts)
     return np.where(solid, out, 0).astype(np.uint8)
-
-
-def refined(solid, n):
-    return solid.repeat(n, 0).repeat(n, 1).repeat(n, 2)
 
 
 def resampled(solid, cell, edge):
@@ -223,24 +222,21 @@ def without_spurs(solid, least):
     """Repeatedly removes voxels with fewer than `least` of the 26 neighbors; also returns how many had so few at first.
     Voxels outside the box count as void."""
     padded = np.pad(solid, 1)
-    flat = padded.reshape(-1)
-    counts = np.zeros(padded.shape, np.uint8)
-    inner = (slice(1, -1),) * 3
-    for shift in NEIGHBORS:
-        counts[inner] += padded[tuple(slice(1 + s, n - 1 + s) for s, n in zip(shift, padded.shape))]
-    counts = counts.reshape(-1)
-    steps = [np.ravel_multi_index([1 + s for s in shift], padded.shape) -
-             np.ravel_multi_index([1, 1, 1], padded.shape) for shift in NEIGHBORS]
+    flat, counts = padded.reshape(-1), padded.astype(np.uint8)
+    for axis in range(3):  # the padding is void: nothing comes around
+        counts = sum(np.roll(counts, shift, axis) for shift in (-1, 0, 1))
+    counts = (counts - padded).reshape(-1)
+    steps = np.array(NEIGHBORS) @ [padded.shape[1] * padded.shape[2], padded.shape[2], 1]
     few = np.flatnonzero(flat & (counts < least))
     at_first = len(few)
     while len(few):
         flat[few] = False
-        around = (few[:, None] + np.array(steps)).reshape(-1)
+        around = (few[:, None] + steps).reshape(-1)
         around = around[flat[around]]
         np.subtract.at(counts, around, 1)
         around = np.unique(around)
         few = around[counts[around] < least]
-    return padded[inner], at_first
+    return padded[1:-1, 1:-1, 1:-1], at_first
 
 
 def kept_of(solid, pieces, spurs, least):
@@ -275,9 +271,8 @@ def kept_of(solid, pieces, spurs, least):
 
 
 def faces_touched(solid):
-    faces = {"xmin": solid[:, :, 0], "xmax": solid[:, :, -1], "ymin": solid[:, 0], "ymax": solid[:, -1],
-             "zmin": solid[0], "zmax": solid[-1]}
-    return [name for name, layer in faces.items() if layer.any()]
+    return [f"{letter}{side}" for axis, letter in ((2, "x"), (1, "y"), (0, "z"))
+            for end, side in ((0, "min"), (-1, "max")) if solid.take(end, axis).any()]
 
 
 def thickness(solid, cell):

@@ -16,6 +16,7 @@ MOSTLY_OUT = 0.1  # share of a piece in bodies up to which it is outside them
 
 def read(path, edge, factor=1.0, in_part=False):
     """edge: of a voxel, m; factor: the unit of the file's lengths, m; in_part: distances are used, not their signs alone."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOGeometry import vtkSTLReader
 
     check_input(path)
@@ -26,7 +27,9 @@ def read(path, edge, factor=1.0, in_part=False):
         surface = reader.GetOutput()
     if said.error() or surface.GetNumberOfPolys() == 0:
         fail(f"{path} cannot be read as STL, or has no triangles")
-    surface = scaled(surface, factor)
+    places = vtk_to_numpy(surface.GetPoints().GetData())
+    places[:] = places.astype(float) * factor  # rounded once
+    surface.GetPoints().Modified()
     check_closed(path, surface)
     low, high = np.reshape(surface.GetBounds(), (3, 2)).T
     shape = np.maximum(1, np.ceil((high - low) / edge - 1e-3)).astype(int)
@@ -34,8 +37,7 @@ def read(path, edge, factor=1.0, in_part=False):
         fail(f"{path}: {' x '.join(map(str, shape))} voxels of {edge:g} m; expected a larger --voxel-size")
     low = 0.5 * (low + high - edge * shape)  # the box holds whole voxels, as much more at either side
     pieces = list(pieces_of(surface))
-    signs, turned = signs_of(path, pieces, low, edge, shape)
-    bodies = bodies_in(pieces, signs, low, edge, shape)
+    signs, turned, bodies = signs_of(path, pieces, low, edge, shape)
     twice = np.count_nonzero(bodies > 1)
     if twice and in_part:
         fail(f"{path}: bodies overlap in {twice:,} voxels, so that not all triangles are surface, and --grey and --density have no meaning; "
@@ -50,18 +52,6 @@ def read(path, edge, factor=1.0, in_part=False):
     if turned:
         told += f"; {turned} wound the other way and outside the rest, taken as {'a body' if turned == 1 else 'bodies'}"
     return Image(values, (edge,) * 3, told)
-
-
-def scaled(surface, factor):
-    from vtkmodules.vtkCommonTransforms import vtkTransform
-    from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
-
-    scale, move = vtkTransform(), vtkTransformPolyDataFilter()
-    scale.Scale(factor, factor, factor)
-    move.SetTransform(scale)
-    move.SetInputData(surface)
-    move.Update()
-    return move.GetOutput()
 
 
 def check_closed(path, surface):
@@ -115,8 +105,8 @@ def pieces_of(surface):
 
 
 def signs_of(path, pieces, low, edge, shape):
-    """+1 for each piece that bounds a body, -1 for a cavity; and how many were turned. A piece that is wound the other way is a
-    cavity in a body, but outside all of them a body, together with what is within it."""
+    """+1 for each piece that bounds a body, -1 for a cavity; how many were turned; and bodies_in(). A piece that is
+    wound the other way is a cavity in a body, but outside all of them a body, together with what is within it."""
     count, turn, signs, turned = np.zeros(shape[::-1], np.int32), np.ones(shape[::-1], np.int8), [], 0
     for piece in pieces:
         part, inside = part_inside(piece, low, edge, shape)
@@ -130,7 +120,7 @@ def signs_of(path, pieces, low, edge, shape):
             turn[part][inside] *= -1
         count[part] += sign * inside
         signs.append(sign)
-    return signs, turned
+    return signs, turned, count
 
 
 def bodies_in(pieces, signs, low, edge, shape):

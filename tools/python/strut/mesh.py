@@ -1,20 +1,10 @@
 """Meshes and voxels from arrays of NumPy, in memory; rank 0's count."""
-import importlib.util
 import os
 
 import numpy as np
 
 from . import _core
-from .places import TOOLS
-
-
-def part_of_the_tools(*path):
-    """A module of the tools, loaded by its file because a script may have a module of the same name."""
-    spec = importlib.util.spec_from_file_location("strut._" + path[-1], os.path.join(TOOLS, *path) + ".py")
-    part = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(part)
-    return part
-
+from .places import part_of_the_tools
 
 cells = part_of_the_tools("voxel", "cells")
 TYPES = {8: "HEX8", 4: "TET4", 1: "SPHERE"}

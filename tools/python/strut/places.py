@@ -1,25 +1,18 @@
-"""Where the tools and programs of strut are: in the sources, or as they are installed."""
+"""The tools of strut: in the sources, or as they are installed."""
+import importlib.util
 import os
+import pathlib
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-TOOLS = next((os.path.realpath(path) for path in (os.path.join(HERE, *up) for up in (
-    ("..", ".."), ("..", "..", "..", "..", "share", "strut", "tools"), ("..", "..", "..", "..", "..", "share", "strut", "tools")))
-    if os.path.isdir(os.path.join(path, "shared"))), None)
+HERE = pathlib.Path(__file__).resolve().parent
+UP = ("../..", "../../../../share/strut/tools", "../../../../../share/strut/tools")
+TOOLS = next(((HERE / up).resolve() for up in UP if (HERE / up / "shared").is_dir()), None)
 if TOOLS is None:
     raise ImportError(f"strut: its tools are not there, seen from {HERE}")
 
 
-def programs():
-    """{variable of the tools: program} of the build or the prefix that holds this module."""
-    from . import _core
-
-    top = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(_core.__file__))))
-    folders = (top, os.path.join(top, "tools"), os.path.join(top, "..", "bin"), os.path.join(top, "..", "..", "bin"))
-    found = {}
-    for variable, name in (("STRUT", "strut"), ("STRUT_MESH", "strut-mesh"), ("STRUT_EVALUATE", "strut-evaluate")):
-        path = next((path for path in (os.path.join(f, name) for f in folders) if os.access(path, os.X_OK) and os.path.isfile(path)), None)
-        found |= {variable: os.path.realpath(path)} if path else {}
-    return found
-
-
-PROGRAMS = programs()
+def part_of_the_tools(*path):
+    """A module of the tools, loaded by its file because a script may have a module of the same name."""
+    spec = importlib.util.spec_from_file_location("strut._" + path[-1], os.path.join(TOOLS, *path) + ".py")
+    part = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(part)
+    return part

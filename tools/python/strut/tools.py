@@ -2,6 +2,7 @@
 smooth=3 is --smooth 3, a list several words, True an option without a value."""
 import csv
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -12,8 +13,7 @@ import numpy as np
 
 from . import _core
 from .deck import Deck
-from .mesh import part_of_the_tools
-from .places import PROGRAMS, TOOLS
+from .places import TOOLS, part_of_the_tools
 from .run import Run
 
 STRESS = "Stress (Pa) of "  # in a table of tools/curve
@@ -109,7 +109,15 @@ def environment():
     """That of a process of its own, which is no rank of this job, and installs nothing."""
     of_job = ("PMIX_", "PMI_", "OMPI_COMM_", "OMPI_MCA_ess", "OMPI_MCA_orte", "OMPI_UNIVERSE", "OMPI_APP", "OMPI_NUM", "OMPI_FIRST")
     kept = {key: value for key, value in os.environ.items() if not key.startswith(of_job)}
-    return {**PROGRAMS, **kept, "STRUT_TOOLS_INSTALLED": "1"}
+    return {**programs(), **kept, "STRUT_TOOLS_INSTALLED": "1"}
+
+
+def programs():
+    """{variable of the tools: program} of the build or the prefix that holds this module."""
+    top = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(_core.__file__))))
+    folders = os.pathsep.join(os.path.join(top, folder) for folder in ("", "tools", "../bin", "../../bin"))
+    found = {name: shutil.which(name, path=folders) for name in ("strut", "strut-mesh", "strut-evaluate")}
+    return {name.upper().replace("-", "_"): os.path.realpath(path) for name, path in found.items() if path}
 
 
 def deck_of_run(run, folder):
