@@ -1,6 +1,7 @@
 #include "output/variables.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "base/errors.hpp"
 #include "deck/problems.hpp"
@@ -105,12 +106,26 @@ int block_of(const std::vector<std::string>& names, const std::string& wanted, c
               joined(names));
 }
 
+// The colon between the names of two blocks, which may have colons themselves.
+std::size_t colon_between(const std::vector<std::string>& blocks, const std::string& name, const std::string& path) {
+  const auto is_block = [&](const std::string& part) { return std::ranges::find(blocks, part) != blocks.end(); };
+  const std::size_t begin = std::min(name.find('('), name.size() - 1) + 1;
+  std::vector<std::size_t> colons;
+  for (std::size_t at = name.find(':', begin); at != std::string::npos; at = name.find(':', at + 1)) {
+    if (is_block(name.substr(begin, at - begin)) && is_block(name.substr(at + 1, name.size() - at - 2)))
+      colons.push_back(at);
+  }
+  if (colons.size() > 1)
+    throw Error(path + ": it names two pairs of blocks, since their names have colons; expected other names");
+  return colons.empty() ? name.find(':') : colons.front();
+}
+
 // Does not check that they can touch.
 ContactComponent contact_component(const std::vector<std::string>& blocks, const std::string& name) {
   const std::string path = where + " > " + name;
   const std::string kind = before_bracket(without_instant(name));
   const auto found = std::find(contact_names.begin(), contact_names.end(), kind);
-  const std::size_t bracket = name.find('('), colon = name.find(':');
+  const std::size_t bracket = name.find('('), colon = colon_between(blocks, name, path);
   if (found == contact_names.end() || bracket == std::string::npos || name.back() != ')' ||
       colon == std::string::npos) {
     throw Error(path + ": expected one of " + joined(contact_names) + did_you_mean(kind, contact_names) +
@@ -209,6 +224,17 @@ std::vector<Observable> observables_of(const deck::Deck& deck, const deck::Probl
   return observables(laws);
 }
 
+// The layers of a profile may be called like a probe, a node set or a block.
+void check_columns(const std::vector<Mean>& means, deck::Problems& problems) {
+  std::set<std::string> columns;
+  for (const Mean& mean : means) {
+    for (const std::string& column : mean.columns()) {
+      if (columns.insert(column).second) continue;
+      problems.add(where, "two columns are called '" + column + "'; expected another name of the section of Profiles");
+    }
+  }
+}
+
 }  // namespace
 
 void check_output_variables(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
@@ -257,6 +283,7 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
       }
     });
   }
+  check_columns(variables.means, problems);
   problems.raise(deck.file.string());
   return variables;
 }

@@ -113,8 +113,9 @@ void check_limit(const Values& values, const OptionalKey<double>& critical, cons
 
 DamageModel read_critical_stretch(const Values& values, Problems& problems) {
   check_limit(values, critical_stretch, fracture_energy, problems);
-  return {.critical_stretch = Function(values[critical_stretch].value_or(1)),
-          .fracture_energy = values[fracture_energy].value_or(0)};
+  Function limit(values[critical_stretch].value_or(1));
+  limit.set_path(values.path_to(critical_stretch));
+  return {.critical_stretch = limit, .fracture_energy = values[fracture_energy].value_or(0)};
 }
 
 DamageModel read_bond_energy(const Values& values, Problems& problems) {

@@ -335,7 +335,8 @@ TEST(CriticalStretch, InPercentIsToldOf) {
     parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key("Critical Stretch", value));
     parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
                                         key("Damage Model", "brittle"));
-    return told_of(parts).find("bonds break at 3 times their length; is it a fraction") != std::string::npos;
+    const std::string sentence = "brittle > Critical Stretch: 2, so bonds break at 3 times their length";
+    return told_of(parts).find(sentence) != std::string::npos;
   };
   EXPECT_TRUE(tells("2"));
   EXPECT_FALSE(tells("0.02"));

@@ -540,6 +540,12 @@ TEST_F(Mistake, MeansAndContactForcesOfTheHistory) {
   expect_error(with("Contact_Force_Z(bar:plat)"), {"there is no block 'plat' (did you mean 'plate'?)"});
   expect_error(with("Contact_Force_Z(bar:bar)"), {"the forces of a block on itself add up to nothing"});
   expect_error(with("Contact_Forc_Z(bar:plate)"), {"(did you mean 'Contact_Force_Z'?)"});
+  Parts twice = right_parts();
+  twice.node_sets = key("slices 1", "z &gt; 0");
+  twice.history =
+      key("Filename", "@/history.csv") + section("Profiles", section("slices", key("Layers", "3"))) +
+      section("Variables", key("Mean_Velocity_Z(slices)", "true") + key("Mean_Velocity_Z(slices 1)", "true"));
+  expect_error(twice.text(), {"two columns are called 'Mean_Velocity_Z(slices 1)'"});
 }
 
 // Results of a run are replaced only by a run that begins.
