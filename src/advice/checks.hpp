@@ -24,7 +24,7 @@ struct Situation {
 
 // ---- without_effect.cpp
 
-// A warning, a line each, of damage models that no block names, models of contact that no interaction
+// A warning, a line each, of materials and damage models that no block names, models of contact that no interaction
 // names, cracks that cut no bond, and node sets of the deck that hold all points.
 std::string without_effect(const Situation& situation);
 
@@ -46,7 +46,8 @@ std::string improbable_materials(const Situation& situation);
 // A warning for each block of an elastomer whose springs have less than half the default stiffness.
 std::string soft_springs(const Situation& situation);
 
-// A warning for each block of a metal that is initially molten, or so cold that its temperature may be in °C.
+// A warning for each block of a metal that is initially molten, or so cold that its temperature may be in °C, and for
+// each prescribed temperature below 0 K.
 std::string improbable_temperatures(const Situation& situation);
 
 // Warnings for a body that is improbably large or small, by itself or for the duration of the run, and for

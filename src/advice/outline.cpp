@@ -223,6 +223,24 @@ double flow_stress_at(materials::ThermalJ2 metal, double temperature) {
   return metal.flow_stress(metal.virgin_state());
 }
 
+// A warning for each condition whose temperatures are below 0 K at the start or at the end of the run.
+std::string temperatures_below_zero(const Situation& situation) {
+  const Body& body = situation.scene.body;
+  std::ostringstream text;
+  for (const HeatedPoints& one : body.heated) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const int i : one.points) {
+      const Vector X = body.domain.reference(i);
+      for (const double t : {situation.start, situation.start + situation.duration})
+        least = std::min(least, one.temperature.evaluate(X[0], X[1], X[2], t));
+    }
+    least = -body.domain.communicator.max(-least);
+    if (least >= 0) continue;
+    text << "WARNING: " << one.temperature.path() << " is " << least << " K: is it in K (20 °C are 293 K)?\n";
+  }
+  return text.str();
+}
+
 }  // namespace
 
 std::string improbable_temperatures(const Situation& situation) {
@@ -232,6 +250,7 @@ std::string improbable_temperatures(const Situation& situation) {
   constexpr double melted = 1e-3;         // of the flow stress at room temperature
   std::ostringstream text;
   text.precision(4);
+  text << temperatures_below_zero(situation);
   for (const MaterialBlock& block : situation.scene.body.blocks) {
     const materials::ThermalJ2* metal = hot_metal(block.material.law);
     if (!metal) continue;

@@ -76,7 +76,11 @@ std::string without_effect(const Situation& situation) {
   const auto is_of_contact = [&deck](int n) {
     return std::ranges::any_of(deck.interactions, [n](const deck::Interaction& one) { return one.model == n; });
   };
-  return unnamed(deck.damage_models, "Damage Models", "no section of Blocks names it as its Damage Model", has_damage) +
+  const auto is_of_block = [&deck](int n) {
+    return std::ranges::any_of(deck.blocks, [n](const deck::Block& block) { return block.material == n; });
+  };
+  return unnamed(deck.materials, "Materials", "no section of Blocks names it", is_of_block) +
+         unnamed(deck.damage_models, "Damage Models", "no section of Blocks names it as its Damage Model", has_damage) +
          unnamed(deck.contact_models, "Contact > Models", "no interaction names it", is_of_contact) +
          cracks_that_cut_nothing(deck, situation.scene.body.domain) +
          sets_of_all_points(deck, situation.scene.body.domain);

@@ -228,6 +228,7 @@ TEST(WithoutEffect, CracksModelsAndSetsThatChangeNothingAreToldOf) {
   const auto told_with = [&](const std::string& cracks, const std::string& set) {
     Parts parts = flying();
     parts.node_sets = key("part", set);
+    parts.materials += changed(parts.materials, "\"copper\"", "\"spare\"");
     const RunFolder folder;
     const std::string models = section(
         "Damage Models", section("tears", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.1")));
@@ -237,10 +238,25 @@ TEST(WithoutEffect, CracksModelsAndSetsThatChangeNothingAreToldOf) {
     return described(deck::read(folder.write("deck.xml", text), folder.world), folder.world);
   };
   const std::string told = told_with(disk("3e-3") + disk("3"), "z &lt; 3");
-  expect_told(told, {"Damage Models > tears: no section of Blocks names it",
+  expect_told(told, {"Materials > spare: no section of Blocks names it: it has no effect",
+                     "Damage Models > tears: no section of Blocks names it",
                      "the crack around (0, 0, 3) m cuts no bond", "Node Sets > part: holds all points"});
   EXPECT_EQ(told.find("(0, 0, 0.003) m cuts"), std::string::npos) << told;
   EXPECT_EQ(told_with(disk("3e-3"), "z &lt; 3e-3").find("holds all"), std::string::npos);
+}
+
+TEST(Temperatures, BelowZeroAreToldOf) {
+  const auto told = [](const std::string& value) {
+    Parts parts;
+    parts.materials = changed(parts.materials, "Density",
+                              "Thermal Expansion Coefficient\" type=\"double\" "
+                              "value=\"1e-5\"/>\n<Parameter name=\"Density");
+    parts.conditions =
+        section("cooling", key("Type", "Prescribed Temperature") + key("Node Set", "all") + key("Value", value));
+    return told_of(parts);
+  };
+  expect_told(told("293 - 1e8*t"), {"WARNING: Boundary Conditions > cooling > Value is -207 K: is it in K"});
+  EXPECT_EQ(told("293 - 1e7*t").find("is it in K"), std::string::npos);
 }
 
 // Each number stands at two of 96 elements: found on any number of ranks.
