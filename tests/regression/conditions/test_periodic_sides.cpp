@@ -370,6 +370,24 @@ TEST(PeriodicContact, IsMissedWhereNoneIsDeclared) {
   }
 }
 
+// Layers of 4 mm along x that are one piece. Of three in a period of 12 mm, the first and the last are bonded through
+// the side; two in a period of 12 mm, bonded to each other in the cell, leave 4 mm between the second and an image.
+TEST(PeriodicContact, IsMissedByBlocksThatNoSideBonds) {
+  for (const bool bonded : {true, false}) {
+    const RunFolder folder;
+    std::string points;
+    for (int n = 0; n < (bonded ? 3 : 2); ++n) points += cubes(n + 1, {n * 4e-3, 0, 0}, 4, 3, 3, 1e-3);
+    folder.write("points.txt", points);
+    Parts parts = thrown_block("");
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3"));
+    parts.conditions = sides("x", "0", "12e-3") + along("flight", "Initial Velocity", bonded ? "all" : "block_2", "x",
+                                                        bonded ? "-30*sin(523.59877559830*x)" : "200");
+    const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+    const std::string told = told_at_the_start(deck, folder.world).warnings;
+    EXPECT_EQ(told.find("will pass through each other") == std::string::npos, bonded) << told;
+  }
+}
+
 // Two plates that repeat along x, one thrown onto the other and along it: faces go on behind the sides, wherever the
 // points are, on one rank or on several.
 TEST(PeriodicContact, OfSurfacesIsThatOfALongPlate) {
