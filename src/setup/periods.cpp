@@ -117,8 +117,10 @@ std::vector<Period> periods(const deck::Deck& deck, const PointCloud& cloud, con
       problems.add(path + " > Stretch: contact does not know sides that move; expected 1, or no Contact");
     }
     if (!deck.interactions.empty() && sides.upper - sides.lower < 3 * (1 - 1e-9) * most[1]) {
-      problems.add(path + ": contact needs a period of 3 horizons or more; expected " + std::to_string(3 * most[1]) +
-                   " m");
+      std::ostringstream expected;
+      expected.precision(10);  // within the round-off above
+      expected << 3 * most[1];
+      problems.add(path + ": contact needs a period of 3 horizons or more; expected " + expected.str() + " m");
     }
     const std::string text = objection(sides, box, -most[0], most[1]);
     if (!text.empty()) problems.add(path + ": " + text);

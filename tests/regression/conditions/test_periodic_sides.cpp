@@ -451,8 +451,8 @@ TEST(PeriodicSides, ThatMoveBreakBondsAfterACheckpointAsWithoutOne) {
 
 // ---- Refusals ------------------------------------------------------------------------------------------------------
 
-std::string error_of(Parts parts) {
-  const RunFolder folder;
+std::string error_of(Parts parts, const Lattice& lattice = {}) {
+  const RunFolder folder(lattice);
   testing::internal::CaptureStdout();
   std::string text;
   try {
@@ -559,6 +559,21 @@ TEST(PeriodicContact, MayHaveThePeriodThatItsRefusalExpects) {
   }
 }
 
+// Micrometers have digits, too: three horizons of 8.75 µm.
+TEST(PeriodicContact, MayHaveASmallPeriodThatItsRefusalExpects) {
+  Parts parts;
+  parts.contact = contact_of({{"bar", "bar"}}, "5e-6", "1e12");
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "8.75e-6"));
+  const auto refusal = [&](const std::string& upper) {
+    parts.conditions = sides("z", "0", upper);
+    return error_of(parts, Lattice{.nz = 5, .spacing = 5e-6});
+  };
+  EXPECT_NE(refusal("25e-6").find("contact needs a period of 3 horizons or more; expected 2.625e-05 m"),
+            std::string::npos)
+      << refusal("25e-6");
+  EXPECT_EQ(refusal("2.625e-05").find("contact needs"), std::string::npos);
+}
+
 TEST(PeriodicSides, ThatDoNotFitAreRefused) {
   Parts parts;
   const auto with = [&](const std::string& conditions) {
@@ -572,6 +587,7 @@ TEST(PeriodicSides, ThatDoNotFitAreRefused) {
   EXPECT_NE(with(sides("x", "0", "4e-3", "1 + x")).find("depends on x, y or z"), std::string::npos);
   EXPECT_NE(with(sides("x", "0", "4e-3", "1.1")).find("is not 1 at the initial time"), std::string::npos);
   EXPECT_NE(with(sides("x", "0", "4e-3", "1 - 1e8*t")).find("expected a stretch > 0"), std::string::npos);
+  EXPECT_EQ(with(sides("x", "0", "4e-3", "1 - 1e8*t")).find("t = 0.0000"), std::string::npos);
   EXPECT_NE(with(sides("z", "0", "6e-3") + plane("mid", "Symmetry Plane", "foot", "0 0 0", "0 0 1"))
                 .find("have no periodic sides, too"),
             std::string::npos);
