@@ -36,6 +36,7 @@ constexpr Check checks[] = {
     sudden_failure,
     coarse_averages,
     noisy_cracks,
+    late_breaks,
     soft_faces,
     breaks_under_pressure,
     improbable_stretches,

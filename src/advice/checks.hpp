@@ -80,6 +80,9 @@ std::string coarse_averages(const Situation& situation);
 // A warning for each block by quadratic correspondence whose bonds break.
 std::string noisy_cracks(const Situation& situation);
 
+// A line for equilibria before other steps, if bonds that could break in them do not, with the reason.
+std::string late_breaks(const Situation& situation);
+
 // A warning for each block whose gradual cracks have contact.
 std::string soft_faces(const Situation& situation);
 

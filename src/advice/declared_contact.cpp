@@ -23,15 +23,18 @@ bool declared(const std::vector<contact::Interaction>& interactions, int a, int 
   });
 }
 
-// The first time at which blocks meet, or one of them an image of the other one period away.
-std::optional<double> first_meeting(const Domain& domain, const Trajectory& a, const Trajectory& b, double duration) {
-  std::optional<double> first = meeting_time(a, b, duration);
-  if (domain.periods.empty()) return first;
+// The first time at which blocks meet, or one of them an image of the other one period away; not where the two may be
+// bonded, in the cell or through a side.
+std::optional<double> first_meeting(const Situation& situation, int one, int other) {
+  const Domain& domain = situation.scene.body.domain;
+  const Trajectory& a = situation.trajectories[one];
   const Images images(domain.periods, 0);
-  for (const int image : images.of_body(0)) {
-    Trajectory moved = b;
-    moved.places.translate(images[image].stretched(domain.halo.stretch()).shift);
-    const auto time = meeting_time(a, moved, duration);
+  std::optional<double> first;
+  for (int image = 0; image < images.count(); ++image) {
+    Trajectory b = situation.trajectories[other];
+    b.places.translate(images[image].stretched(domain.halo.stretch()).shift);
+    if (may_be_bonded(domain.blocks[one], domain.blocks[other], a.places.exteriorDistance(b.places))) continue;
+    const auto time = meeting_time(a, b, situation.duration);
     if (time) first = std::min(*time, first.value_or(*time));
   }
   return first;
@@ -40,20 +43,14 @@ std::optional<double> first_meeting(const Domain& domain, const Trajectory& a, c
 }  // namespace
 
 std::string undeclared_contacts(const Situation& situation) {
-  const Scene& scene = situation.scene;
-  const auto& interactions = situation.interactions;
-  const auto& trajectories = situation.trajectories;
-  const double start = situation.start, duration = situation.duration;
-  const Domain& domain = scene.body.domain;
+  const std::vector<std::string>& names = situation.scene.body.domain.cloud.block_names;
   std::ostringstream text;
-  for (int a = 0; a < static_cast<int>(trajectories.size()); ++a) {
-    for (int b = a + 1; b < static_cast<int>(trajectories.size()); ++b) {
-      const double gap = trajectories[a].places.exteriorDistance(trajectories[b].places);
-      if (declared(interactions, a, b) || may_be_bonded(domain.blocks[a], domain.blocks[b], gap)) continue;
-      const auto time = first_meeting(domain, trajectories[a], trajectories[b], duration);
+  for (int a = 0; a < static_cast<int>(names.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(names.size()); ++b) {
+      if (declared(situation.interactions, a, b)) continue;
+      const auto time = first_meeting(situation, a, b);
       if (!time) continue;
-      text << "WARNING: blocks " << domain.cloud.block_names[a] << " and " << domain.cloud.block_names[b]
-           << " meet at about t = " << start + *time
+      text << "WARNING: blocks " << names[a] << " and " << names[b] << " meet at about t = " << situation.start + *time
            << " s and will pass through each other: no contact between them is "
            << "declared (Contact > Interactions)\n";
     }

@@ -170,6 +170,20 @@ void compare_images(const Texts& other, const Texts& now, std::vector<std::strin
   }
 }
 
+std::vector<HeldSet> held_sets(const Texts& other, const Texts& now) {
+  std::vector<HeldSet> held;
+  for (const auto& [keys, name] : keys_of(other, {"Prescribed Displacement", "Prescribed Velocity"})) {
+    const std::string set = text_at(other, name + " > Node Set"), path = "Node Sets > " + set;
+    const auto differs = [&](const std::string& one) {
+      return is_within(one, path) && text_at(other, one) != text_at(now, one);
+    };
+    if (std::ranges::none_of(paths_of(other, now), differs)) {
+      held.push_back({set, text_at(other, name + " > Coordinate")});
+    }
+  }
+  return held;
+}
+
 // The files that a run has written, as seen from the folder of its checkpoint, wherever it ran.
 std::vector<std::filesystem::path> files_of(const Texts& texts) {
   const std::string checkpoint = "Restart > Filename";
@@ -219,6 +233,7 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
   };
   changes.same_loads = changes.same_loads && sets_of(other) == sets_of(now);
   changes.same_conditions = changes.same_conditions && other_keys.conditions == now_keys.conditions;
+  changes.held = held_sets(other, now);
   changes.files = files_of(other);
   return changes;
 }

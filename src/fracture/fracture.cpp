@@ -8,7 +8,7 @@
 #include "fracture/broken_family.hpp"
 #include "fracture/critical_stretch.hpp"
 #include "fracture/work_balance.hpp"
-#include "mechanics/breaks_at_rest.hpp"
+#include "mechanics/hindered_breaks.hpp"
 #include "mechanics/kernels/bonds.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
@@ -147,13 +147,7 @@ void Fracture::start_step(const Body& body, std::span<const Vector> velocities, 
   if (energies_.any()) energies_.take_expansions(body);
 }
 
-bool Fracture::breaks_at_rest(const Body& body) const {
-  return std::ranges::all_of(body.blocks, [](const MaterialBlock& block) {
-    const auto& [formulation, law, damage] =
-        std::tie(block.material.formulation, block.material.law, block.material.damage);
-    return damage ? strut::breaks_at_rest(formulation, law, *damage) : stays_while_others_break(formulation, law);
-  });
-}
+bool Fracture::breaks_at_rest(const Body& body) const { return hindrance_of_breaks(body).empty(); }
 
 void Fracture::start_rest(const Body& body) {
   look_at_all(body);

@@ -11,6 +11,7 @@
 #include "mechanics/serialize.hpp"
 #include "setup/conditions.hpp"
 #include "setup/setup.hpp"
+#include "topology/point_group.hpp"
 
 namespace strut {
 
@@ -68,6 +69,25 @@ std::string other_stretch(const deck::Deck& deck, const std::vector<Period>& per
 Vector without_held(const Vector& change, const Vector& before) {
   constexpr double none = 1e-6;  // a prescribed displacement gives a speed to round-off
   return (before.array().abs() > none * change.array().abs()).select(change, 0);
+}
+
+// 1 for each component of a velocity, 0 where a prescribed motion of the other run held it: without_held does not see
+// those whose speed changes.
+std::vector<Vector> free_components(const std::vector<deck::HeldSet>& held, const PointCloud& cloud) {
+  std::vector<Vector> free(cloud.size(), Vector::Ones());
+  const auto has = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  for (const deck::HeldSet& one : held) {
+    if (one.name != "all" && !has(cloud.set_names, one.name) && !has(cloud.block_names, one.name)) continue;
+    const PointGroup points(cloud, one.name, key);
+    for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
+      for (int c = 0; c < 3 && points.counts(cloud, i); ++c) {
+        if (one.axes.find("xyz"[c]) != std::string::npos) free[i][c] = 0;
+      }
+    }
+  }
+  return free;
 }
 
 void refuse_displacements(const deck::Deck& deck, deck::Problems& problems) {
@@ -163,9 +183,10 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
     // From the mid-step before the checkpoint to its time, with the loads there, which are known if this deck has them.
     const std::vector<Vector> inner = body.force_density;
     if (changes_.same_loads) add_forces(scene.conditions, facts_.time, body);
+    const std::vector<Vector> free = free_components(changes_.held, body.domain.cloud);
     for (int i = 0; i < body.owned(); ++i) {
       const Vector change = 0.5 * last_step / body.density[i] * body.force_density[i];
-      body.velocity[i] += without_held(change, body.velocity[i] - body.previous_velocity[i]);
+      body.velocity[i] += free[i].cwiseProduct(without_held(change, body.velocity[i] - body.previous_velocity[i]));
     }
     body.force_density = inner;
   }

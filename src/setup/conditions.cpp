@@ -70,6 +70,7 @@ void put(const Type& prototype, const std::string& name, std::vector<int> points
          Scene& scene) {
   Type condition = prototype.on(std::move(points), place, scene.body);
   if constexpr (std::is_same_v<Type, RigidTool>) {
+    join_images(scene.body.domain.periods, condition.shape);
     if (condition.free) {
       condition.free->time = times.begin;  // it rests until then
       condition.free->keep_between(mirrors_of(condition, scene.body.domain), condition.shape);
@@ -273,7 +274,6 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
   }
   raise_together(communicator, problems.text(deck.file.string()));
   if (displaces && mesh_time == deck.solver.initial_time) set_reaches_from_here(mesh_time, scene);
-  join_boxes_across_sides(deck, times.begin, scene.conditions);
   check_open_ends(deck, scene.conditions, scene.body, problems);
   if (deck.next_solver) scene.warnings += look_at_next_steps(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <type_traits>
 #include <variant>
 
 #include "base/errors.hpp"
@@ -118,8 +117,10 @@ std::vector<Period> periods(const deck::Deck& deck, const PointCloud& cloud, con
       problems.add(path + " > Stretch: contact does not know sides that move; expected 1, or no Contact");
     }
     if (!deck.interactions.empty() && sides.upper - sides.lower < 3 * (1 - 1e-9) * most[1]) {
-      problems.add(path + ": contact needs a period of 3 horizons or more; expected " + std::to_string(3 * most[1]) +
-                   " m");
+      std::ostringstream expected;
+      expected.precision(10);  // within the round-off above
+      expected << 3 * most[1];
+      problems.add(path + ": contact needs a period of 3 horizons or more; expected " + expected.str() + " m");
     }
     const std::string text = objection(sides, box, -most[0], most[1]);
     if (!text.empty()) problems.add(path + ": " + text);
@@ -173,21 +174,15 @@ std::string open_sides(const deck::Deck& deck, const Domain& domain) {
   return warnings;
 }
 
-void join_boxes_across_sides(const deck::Deck& deck, double t, Conditions& conditions) {
+void join_images(const std::vector<Period>& periods, Shape& shape) {
   constexpr double far = 1e6;  // periods
-  const auto join = [&](RigidTool& tool, Box& box) {
-    for_each(deck, [&](const PeriodicSides& sides, int) {
-      double &lower = box.lower[sides.axis], &upper = box.upper[sides.axis];
-      const double offset = tool.offset(t)[sides.axis], length = sides.upper - sides.lower;
-      if (lower + offset > sides.lower || upper + offset < sides.upper) return;
-      lower -= far * length, upper += far * length;
-    });
-  };
-  conditions.visit([&]<class Type>(Type& one) {
-    if constexpr (std::is_same_v<Type, RigidTool>) {
-      if (auto* box = std::get_if<Box>(&one.shape)) join(one, *box);
-    }
-  });
+  constexpr double round_off = 1e-9;
+  Box* box = std::get_if<Box>(&shape);
+  for (const Period& period : periods) {
+    if (!box || box->upper[period.axis] - box->lower[period.axis] < period.length * (1 - round_off)) continue;
+    box->lower[period.axis] -= far * period.length;
+    box->upper[period.axis] += far * period.length;
+  }
 }
 
 }  // namespace strut

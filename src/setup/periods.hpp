@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/parallel/communicator.hpp"
-#include "conditions/conditions.hpp"
+#include "conditions/tool_shapes.hpp"
 #include "deck/deck.hpp"
 #include "topology/domain.hpp"
 
@@ -19,8 +19,8 @@ std::vector<Mirror> sides_of_periods(const deck::Deck& deck);
 std::vector<Period> periods(const deck::Deck& deck, const PointCloud& cloud, const std::vector<Mirror>& mirrors,
                             const Communicator& communicator);
 
-// Boxes that are across both periodic sides at time t (s) go on without ends: so do they and their images.
-void join_boxes_across_sides(const deck::Deck& deck, double t, Conditions& conditions);
+// A box as long as a period goes on without ends, wherever it stands: it touches its images.
+void join_images(const std::vector<Period>& periods, Shape& shape);
 
 // Collective. A warning for each period whose upper side has elements that meet none of those at the lower side.
 std::string open_sides(const deck::Deck& deck, const Domain& domain);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/numbers.hpp"
 #include "topology/neighbors/order.hpp"
 #include "topology/partition.hpp"
 
@@ -151,8 +152,8 @@ Vector stretch_at(const std::vector<Period>& periods, double t) {
     double& now = stretch[period.axis];
     now = period.stretch.evaluate(0, 0, 0, t);
     if (!(now > 0 && std::isfinite(now))) {
-      throw Error(period.stretch.path() + ": '" + period.stretch.text() + "' is " + std::to_string(now) +
-                  " at t = " + std::to_string(t) + " s; expected a stretch > 0");
+      throw Error(period.stretch.path() + ": '" + period.stretch.text() + "' is " + to_text(now) +
+                  " at t = " + to_text(t) + " s; expected a stretch > 0");
     }
   }
   return stretch;

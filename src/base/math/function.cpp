@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "base/math/expression.hpp"
+#include "base/numbers.hpp"
 
 namespace strut {
 
@@ -39,7 +40,7 @@ struct Function::NotFinite {
   double x, y, z, t, value;
 };
 
-Function::Function(double constant) : constant_(constant), text_(std::to_string(constant)) {}
+Function::Function(double constant) : constant_(constant), text_(to_text(constant)) {}
 
 Function Function::parse(const std::string& text) {
   Function function;

@@ -39,7 +39,8 @@ void check_others(const std::vector<Material>& materials, const std::vector<Bloc
         "'" + material.name +
             "' beside a block with a Damage Model: where bonds break with Solver > QuasiStatic, each round of "
             "breaks would age it by a load step; expected explicit steps (Verlet), or in all blocks a material "
-            "'Elastic', or 'Elastic Correspondence' without Formulation 'Quadratic Correspondence'");
+            "'Elastic', 'Hyperelastic' without Relaxation, or 'Elastic Correspondence', without Formulation "
+            "'Quadratic Correspondence'");
   }
 }
 

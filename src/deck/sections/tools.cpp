@@ -143,7 +143,8 @@ ConditionPrototype read_rigid_cylinder(const Values& values, Problems& problems)
 
 Section rigid_box_section() {
   return tool({.name = "Rigid Box",
-               .meaning = "Box with sharp edges along the axes: bodies stay outside.",
+               .meaning = "Box with sharp edges along the axes: bodies stay outside. One as long as the period of "
+                          "Periodic Sides has no ends.",
                .keys = {lower, upper}});
 }
 

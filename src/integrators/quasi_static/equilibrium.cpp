@@ -277,9 +277,7 @@ void Equilibrium::begin_flow_of_cells() {
 
 // The deck's check (deck/sections/inertia.cpp) refuses the others, unless explicit steps follow, in which they break.
 bool Equilibrium::may_break() const {
-  const auto rests = [](const Period& period) { return period.stretch.is_constant(); };
-  return fracture_ && fracture_->breaks_at_rest(body_) && !tools_.any() && !contact_.any() && body_.heated.empty() &&
-         body_.domain.mirrors.empty() && std::ranges::all_of(body_.domain.periods, rests);
+  return fracture_ && fracture_->breaks_at_rest(body_) && !tools_.any() && !contact_.any();
 }
 
 std::int64_t Equilibrium::break_bonds() {

@@ -370,6 +370,24 @@ TEST(PeriodicContact, IsMissedWhereNoneIsDeclared) {
   }
 }
 
+// Layers of 4 mm along x that are one piece. Of three in a period of 12 mm, the first and the last are bonded through
+// the side; two in a period of 12 mm, bonded to each other in the cell, leave 4 mm between the second and an image.
+TEST(PeriodicContact, IsMissedByBlocksThatNoSideBonds) {
+  for (const bool bonded : {true, false}) {
+    const RunFolder folder;
+    std::string points;
+    for (int n = 0; n < (bonded ? 3 : 2); ++n) points += cubes(n + 1, {n * 4e-3, 0, 0}, 4, 3, 3, 1e-3);
+    folder.write("points.txt", points);
+    Parts parts = thrown_block("");
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3"));
+    parts.conditions = sides("x", "0", "12e-3") + along("flight", "Initial Velocity", bonded ? "all" : "block_2", "x",
+                                                        bonded ? "-30*sin(523.59877559830*x)" : "200");
+    const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+    const std::string told = told_at_the_start(deck, folder.world).warnings;
+    EXPECT_EQ(told.find("will pass through each other") == std::string::npos, bonded) << told;
+  }
+}
+
 // Two plates that repeat along x, one thrown onto the other and along it: faces go on behind the sides, wherever the
 // points are, on one rank or on several.
 TEST(PeriodicContact, OfSurfacesIsThatOfALongPlate) {
@@ -433,8 +451,8 @@ TEST(PeriodicSides, ThatMoveBreakBondsAfterACheckpointAsWithoutOne) {
 
 // ---- Refusals ------------------------------------------------------------------------------------------------------
 
-std::string error_of(Parts parts) {
-  const RunFolder folder;
+std::string error_of(Parts parts, const Lattice& lattice = {}) {
+  const RunFolder folder(lattice);
   testing::internal::CaptureStdout();
   std::string text;
   try {
@@ -490,20 +508,26 @@ TEST(PeriodicSides, TellOfToolsAcrossThem) {
   EXPECT_TRUE(told("2e-3 0 -1.6e-3", "0 1 0", "200*t"));  // by 1 mm until the end
 }
 
-// A box across both sides meets its own images: it presses a bar that slides through the sides as a plane does.
-TEST(PeriodicSides, BoxAcrossBothIsWithoutEnds) {
+// A box as long as the period touches its own images, wherever it stands: it presses a bar that slides through the
+// sides as a plane does.
+TEST(PeriodicSides, BoxAsLongAsThePeriodIsWithoutEnds) {
   const RunFolder folder;
   Parts parts;
   const std::string others = sides("x", "0", "4e-3") + along("slide", "Initial Velocity", "all", "x", "600") +
                              plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1");
-  parts.conditions = others + section("press", key("Type", "Rigid Box") + key("Lower Corner", "-0.5e-3 -1e-3 6e-3") +
-                                                   key("Upper Corner", "4.5e-3 9e-3 9e-3") + key("Travel Z", "-20*t"));
-  const std::vector<Vector> by_box = run_of(folder, parts);
   parts.conditions = others + section("press", key("Type", "Rigid Plane") + key("Point", "0 0 6e-3") +
                                                    key("Normal", "0 0 -1") + key("Travel Z", "-20*t"));
   const std::vector<Vector> by_plane = run_of(folder, parts);
-  if (folder.world.rank() == 0) {
-    EXPECT_LT(difference(by_box, by_plane), 1e-12);  // the same sums
+  const auto by_box = [&](const std::string& from, const std::string& to) {
+    parts.conditions = others + section("press", key("Type", "Rigid Box") + key("Lower Corner", from + " -1e-3 6e-3") +
+                                                     key("Upper Corner", to + " 9e-3 9e-3") + key("Travel Z", "-20*t"));
+    return run_of(folder, parts);
+  };
+  for (const auto& [from, to] : {std::pair{"-0.5e-3", "4.5e-3"}, {"1.3e-3", "5.2999999999999e-3"}}) {
+    const std::vector<Vector> moved = by_box(from, to);
+    if (folder.world.rank() == 0) {
+      EXPECT_LT(difference(moved, by_plane), 1e-12) << from;  // the same sums
+    }
   }
 }
 
@@ -535,6 +559,21 @@ TEST(PeriodicContact, MayHaveThePeriodThatItsRefusalExpects) {
   }
 }
 
+// Micrometers have digits, too: three horizons of 8.75 µm.
+TEST(PeriodicContact, MayHaveASmallPeriodThatItsRefusalExpects) {
+  Parts parts;
+  parts.contact = contact_of({{"bar", "bar"}}, "5e-6", "1e12");
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "8.75e-6"));
+  const auto refusal = [&](const std::string& upper) {
+    parts.conditions = sides("z", "0", upper);
+    return error_of(parts, Lattice{.nz = 5, .spacing = 5e-6});
+  };
+  EXPECT_NE(refusal("25e-6").find("contact needs a period of 3 horizons or more; expected 2.625e-05 m"),
+            std::string::npos)
+      << refusal("25e-6");
+  EXPECT_EQ(refusal("2.625e-05").find("contact needs"), std::string::npos);
+}
+
 TEST(PeriodicSides, ThatDoNotFitAreRefused) {
   Parts parts;
   const auto with = [&](const std::string& conditions) {
@@ -548,6 +587,7 @@ TEST(PeriodicSides, ThatDoNotFitAreRefused) {
   EXPECT_NE(with(sides("x", "0", "4e-3", "1 + x")).find("depends on x, y or z"), std::string::npos);
   EXPECT_NE(with(sides("x", "0", "4e-3", "1.1")).find("is not 1 at the initial time"), std::string::npos);
   EXPECT_NE(with(sides("x", "0", "4e-3", "1 - 1e8*t")).find("expected a stretch > 0"), std::string::npos);
+  EXPECT_EQ(with(sides("x", "0", "4e-3", "1 - 1e8*t")).find("t = 0.0000"), std::string::npos);
   EXPECT_NE(with(sides("z", "0", "6e-3") + plane("mid", "Symmetry Plane", "foot", "0 0 0", "0 0 1"))
                 .find("have no periodic sides, too"),
             std::string::npos);

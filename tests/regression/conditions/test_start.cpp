@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "regression/bodies.hpp"
+#include "run/simulation.hpp"
 
 namespace strut::regression {
 namespace {
@@ -118,6 +119,30 @@ TEST(AShortLastStep, HasVelocitiesAndEnergyOfItsTime) {
   });
   EXPECT_EQ(run.solver.steps(), 11);
   EXPECT_EQ(last.time, 1.03e-6);
+}
+
+// The end of a bar that another run pulled ever faster is let go. In the half step to the time of the checkpoint the
+// forces against which it was held do not move it; its speed is that of half a step before.
+TEST(AtTheStartFromAnother, PointsHaveTheSpeedAtWhichTheyWereHeld) {
+  const RunFolder folder;
+  const std::string checkpoint = (folder / "one.restart").string();
+  Parts parts;
+  parts.verlet = key("Fixed dt", "5e-8");  // a hundredth of the time
+  const std::string foot = along("low", "Prescribed Displacement", "foot", "xyz", "0");
+  const auto run_with = [&](const std::string& conditions, const std::string& more) {
+    parts.conditions = conditions;
+    testing::internal::CaptureStdout();
+    run(folder.write("deck.xml", changed(parts.text(), "<ParameterList>\n", "<ParameterList>\n" + more)), folder.world);
+    testing::internal::GetCapturedStdout();
+  };
+  run_with(foot + along("high", "Prescribed Velocity", "top", "z", "2e5*t"),
+           section("Restart", key("Filename", checkpoint) + key("Interval", "1")));
+  parts.history = key("Filename", (folder / "history.csv").string()) + key("Frequency", "1") +
+                  section("Variables", key("Min_Velocity_Z(top)", "true") + key("Max_Velocity_Z(top)", "true"));
+  run_with(foot, section("Start From", key("Checkpoint", checkpoint)));
+  const Table table = read_history(folder / "history.csv");
+  EXPECT_NEAR(table.at("Min_Velocity_Z(top)")[0], 1, 0.01);
+  EXPECT_NEAR(table.at("Max_Velocity_Z(top)")[0], 1, 0.01);
 }
 
 }  // namespace

@@ -211,6 +211,30 @@ TEST(TwoSolvers, ACheckTellsOfTheSteps) {
   EXPECT_NE(said.find("critical time step", next), std::string::npos) << said;
 }
 
+// One condition, or one body at rest, keeps all bonds from breaking in the equilibria.
+TEST(TwoSolvers, TellOfBondsThatHoldInEquilibria) {
+  const RunFolder folder(Lattice{.nz = 8, .plate_layers = 2});
+  const auto told = [&](const std::string& material, const std::string& conditions) {
+    Parts parts;
+    parts.materials += changed(copper(material), "copper", "other");
+    parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.01"));
+    const std::string horizon = key("Horizon", "2.01e-3");
+    parts.blocks =
+        section("bar",
+                key("Block Names", "bar") + key("Material", "copper") + horizon + key("Damage Model", "brittle")) +
+        section("far", key("Block Names", "plate") + key("Material", "other") + horizon + key("Separate Body", "true"));
+    parts.conditions = held + conditions;
+    const deck::Deck deck = deck::read(folder.write("deck.xml", deck_of(parts)), folder.world);
+    const std::string all = told_at_the_start(deck, folder.world).warnings;
+    const std::string begin = "bonds break only from Solver 2 on, because of ";
+    const std::size_t at = all.find(begin);
+    return at == std::string::npos ? "" : all.substr(at + begin.size(), all.find(':', at) - at - begin.size());
+  };
+  EXPECT_EQ(told("", ""), "");
+  EXPECT_EQ(told(key("Yield Stress", "2e8"), ""), "block 'plate' (its material or Damage Model)");
+  EXPECT_EQ(told("", wall("press", "8e-3", "-1")), "tools");
+}
+
 // A Wall Time ends such a run without a checkpoint: that is told, and --continue does not replace what it has left.
 TEST(TwoSolvers, AWallTimeLeavesNothingToGoOnFrom) {
   Parts parts;
