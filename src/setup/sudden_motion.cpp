@@ -7,8 +7,8 @@
 #include <sstream>
 #include <variant>
 
+#include "setup/changes_in_time.hpp"
 #include "setup/found_points.hpp"
-#include "topology/bounding_box.hpp"
 
 namespace strut {
 
@@ -18,94 +18,25 @@ namespace {
 // throws points at some hundredths of the wave speed.
 constexpr double no_jump = 1e-6, sudden = 0.01;
 
-constexpr int looks = 1000;   // samples of a function of time in a run
-constexpr int halvings = 40;  // bisections between two samples that distinguish a jump from a steep slope
-
-struct Jump {
-  double time = 0, length = 0;  // s, and m or the unit of a load
-};
-
-// The jump between `from` and `to`, by halving the interval where it changes most: a steep slope leaves no jump.
-template <class OfTime>
-Jump jump_between(const OfTime& of_time, double from, double to) {
-  for (int n = 0; n < halvings; ++n) {
-    const double middle = 0.5 * (from + to);
-    if (std::abs(of_time(middle) - of_time(from)) > std::abs(of_time(to) - of_time(middle))) {
-      to = middle;
-    } else {
-      from = middle;
-    }
-  }
-  return {to, std::abs(of_time(to) - of_time(from))};
-}
-
-// Calls visit(change, from, to) between each two samples in time.
-template <class OfTime, class Visit>
-void for_each_change(const OfTime& of_time, double start, double end, const Visit& visit) {
-  for (int k = 0; k < looks; ++k) {
-    const double a = start + (end - start) * k / looks, b = start + (end - start) * (k + 1) / looks;
-    visit(std::abs(of_time(b) - of_time(a)), a, b);
-  }
-}
-
-// The largest change of `of_time` between two samples, as a jump.
-template <class OfTime>
-Jump largest_jump(const OfTime& of_time, double start, double end) {
-  double from = start, to = start, most = 0;
-  for_each_change(of_time, start, end, [&](double change, double a, double b) {
-    if (change > most) most = change, from = a, to = b;
-  });
-  return jump_between(of_time, from, to);
-}
-
 // The least time between two jumps of `of_time` by a tenth of its largest value or more, s; infinite without two.
-template <class OfTime>
 double shortest_pulse(const OfTime& of_time, double start, double end) {
   double largest = 0;
-  for (int k = 0; k <= looks; ++k) largest = std::max(largest, std::abs(of_time(start + (end - start) * k / looks)));
+  for (int k = 0; k <= looks_in_a_run; ++k)
+    largest = std::max(largest, std::abs(of_time(start + (end - start) * k / looks_in_a_run)));
   double last = -std::numeric_limits<double>::infinity(), shortest = -last;
   if (std::abs(of_time(start)) > 0.1 * largest) last = start;
-  for_each_change(of_time, start, end, [&](double change, double a, double b) {
-    if (!(change > 0.1 * largest)) return;
-    const Jump jump = jump_between(of_time, a, b);
-    if (!(jump.length > 0.1 * largest)) return;
+  for (const Jump& jump : jumps_of(of_time, start, end)) {
     shortest = std::min(shortest, jump.time - last);
     last = jump.time;
-  });
+  }
   return shortest;
-}
-
-// The box of the points of a condition over all ranks, and their least spacing.
-struct Where {
-  Eigen::AlignedBox3d box;
-  double spacing = std::numeric_limits<double>::infinity();
-};
-
-Where where(const std::vector<int>& points, const Body& body) {
-  Where all;
-  for (const int i : points) {
-    all.box.extend(body.domain.reference(i));
-    all.spacing = std::min(all.spacing, body.domain.cloud.spacings[i]);
-  }
-  all.box = common_box(all.box, body.domain.communicator);
-  all.spacing = body.domain.communicator.min(all.spacing);
-  return all;
-}
-
-// Calls visit(of_time) with the value as a function of time at each corner of the box, or once if it is the same there.
-template <class Visit>
-void at_corners(const Function& value, const Where& where, const Visit& visit) {
-  for (int corner = 0; corner < (value.depends_on_place() ? 8 : 1); ++corner) {
-    const Vector X = where.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-    visit([&](double t) { return value.evaluate(X[0], X[1], X[2], t); });
-  }
 }
 
 // The largest jump at the corners of the box.
 Jump largest_jump(const Function& value, const Where& where, double start, double end) {
   Jump worst;
-  at_corners(value, where, [&](const auto& of_time) {
-    const Jump jump = largest_jump(of_time, start, end);
+  at_corners(value, where, [&](const OfTime& of_time) {
+    const Jump jump = strut::largest_jump(of_time, start, end);
     if (jump.length > worst.length) worst = jump;
   });
   return worst;
@@ -224,7 +155,7 @@ std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& poi
     for (const Function& value : sampled_values(deck.conditions[c])) {
       if (!value.depends_on_time()) continue;
       double pulse = std::numeric_limits<double>::infinity();
-      at_corners(value, where(points[c], body), [&](const auto& of_time) {
+      at_corners(value, where(points[c], body), [&](const OfTime& of_time) {
         pulse = std::min(pulse, shortest_pulse(of_time, deck.solver.initial_time, deck.solver.final_time));
       });
       if (!(step > told * pulse)) continue;
@@ -256,7 +187,7 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
     for (const Function& value : values) {
       if (!value.depends_on_time()) continue;
       double at_load_steps = 0, between = 0, time = 0, zero = 0;
-      at_corners(value, where(points[c], body), [&](const auto& of_time) {
+      at_corners(value, where(points[c], body), [&](const OfTime& of_time) {
         if (strains) zero = of_time(start);
         for (int k = 0; k <= looks_between * load_steps; ++k) {
           const double t = start + duration * k / (looks_between * load_steps), size = std::abs(of_time(t) - zero);

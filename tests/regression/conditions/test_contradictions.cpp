@@ -86,6 +86,34 @@ TEST(Contradiction, OfTwoConditionsIsAnErrorThatNamesBothAndTheirPoints) {
       "initial velocities");
 }
 
+// Pulses of a 50th to a 500th of the run, some of them at no time that the text names; jumps a 50 000th apart.
+TEST(Contradiction, OfAMomentIsAnError) {
+  const std::string pulse = "t &lt; 1e-7 ? 5 : 0";
+  const std::vector<std::string> contradictions{
+      velocity("a", "foot", "x", "0") + velocity("b", "side", "x", pulse),
+      velocity("a", "foot", "x", pulse) + cut("b", "side", "1 0 0"),
+      velocity("a", "foot", "x", "(" + pulse + ")*1e3*y") + velocity("b", "side", "x", "0"),
+      displacement("a", "foot", "z", "0") +
+          displacement("b", "side", "z", "(t > 3.14e-6 &amp;&amp; t &lt; 3.1401e-6) ? 1e-5 : 0"),
+      displacement("a", "foot", "xyz", "0") +
+          velocity("b", "side", "z", "table(t, 0, 0, 1e-6, 0, 1.01e-6, 5, 1.02e-6, 0)"),
+      velocity("a", "foot", "z", "0") + velocity("b", "side", "z", "5*exp(-((1e8*t - 217)^2))"),
+      velocity("a", "foot", "z", "t &lt; 2e-6 ? 0 : 5") + velocity("b", "side", "z", "t &lt; 2.0001e-6 ? 0 : 5"),
+      velocity("a", "foot", "z", "(1e6*t)^2 &lt; 3 ? 0 : 5") +
+          velocity("b", "side", "z", "(1e6*t)^2 &lt; 3.001 ? 0 : 5"),
+  };
+  for (const std::string& conditions : contradictions) {
+    expect_said(said_of(block(conditions)).error,
+                {"1 problem\n", "Boundary Conditions > b: contradicts 'a': both prescribe the motion of 4 points"},
+                conditions);
+  }
+  // At one of ten load steps, and no more than a millionth of one before and after it.
+  const std::string at_one = "abs(1e6*t - 2.5) &lt; 1e-6 ? 1e-5 : 0";
+  expect_said(
+      said_of(block(displacement("a", "foot", "z", "0") + displacement("b", "side", "z", at_one)), Loading::slow).error,
+      {"Boundary Conditions > b: contradicts 'a'"}, at_one);
+}
+
 // Whole faces that are held twice, in the way that decks of quarters and of bars do.
 TEST(Contradiction, IsNotInWhatAgrees) {
   const std::vector<std::string> agreeing{
@@ -96,6 +124,12 @@ TEST(Contradiction, IsNotInWhatAgrees) {
       cut("a", "foot", "0 0 1") + cut("b", "side", "1 0 0") + cut("c", "all", "0 1 0"),
       cut("a", "foot", "0 0 1") + cut("b", "foot", "0 1 1") + cut("c", "side", "0 -1 1"),
       velocity("a", "foot", "z", "1") + cut("b", "side", "0 1 1"),
+      // Jumps at one time by several rules, sums across a jump, and round-off of values near 0.
+      velocity("a", "foot", "z", "1e6*t &lt; 2.1 ? 0 : 5") + velocity("b", "side", "z", "t &lt;= 2.1e-6 ? 0 : 5"),
+      displacement("a", "foot", "z", "t &lt; 2.1e-6 ? 0 : 5*(t - 2.1e-6)") +
+          velocity("b", "side", "z", "t &lt; 2.1e-6 ? 0 : 5"),
+      velocity("a", "foot", "z", "5e6*t - 10") + velocity("b", "side", "z", "5e6*(t - 2e-6)"),
+      displacement("a", "foot", "z", "1e-5 - 1e-5*cos(1e5*t)") + displacement("b", "side", "z", "2e-5*sin(5e4*t)^2"),
   };
   for (const std::string& conditions : agreeing) {
     for (const Loading loading : {Loading::sudden, Loading::slow}) {
