@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "advice/checks.hpp"
+#include "setup/changes_in_time.hpp"
 #include "setup/found_points.hpp"
 #include "topology/point_group.hpp"
 
@@ -17,7 +18,7 @@ namespace strut {
 
 namespace {
 
-constexpr int looks = 64;         // samples of the paths of tools and points
+constexpr int looks = 64;         // samples of the paths of tools and points, and as many where these turn or jump
 constexpr double deep = 1e-3;     // spacings: accuracy of positions
 constexpr double along = 1e-3;    // component of a normal along a held direction
 constexpr double opposite = 0.9;  // the same for a symmetry plane, whose adjacent cells a tool may push obliquely
@@ -91,6 +92,30 @@ void move_on(const Conditions& conditions, const Domain& domain, double time, do
   });
 }
 
+// The times at which paths are looked at, from the start on, s. Collective.
+std::vector<double> times_of(const Situation& situation, const std::vector<Held>& held) {
+  const double start = situation.start, end = start + situation.duration;
+  const Body& body = situation.scene.body;
+  std::vector<double> changes, times{start};
+  const auto add = [&](const Function& value, const std::vector<int>& points) {
+    std::ranges::copy(changes_of(value, where(points, body), start, end), std::back_inserter(changes));
+  };
+  for (const deck::Condition& condition : situation.deck.conditions) {
+    const auto* tool = std::get_if<RigidTool>(&condition.kind);
+    if (!tool || tool->free) continue;
+    for (const Function& travel : tool->values_at_points()) add(travel, {});
+  }
+  for (const Held& one : held) {
+    const auto* motion = std::get_if<PrescribedMotion>(&situation.deck.conditions[one.condition].kind);
+    if (motion) add(motion->value, one.points);
+  }
+  std::ranges::sort(changes);
+  std::ranges::copy(thinned(changes, looks), std::back_inserter(times));
+  for (int k = 1; k <= looks; ++k) times.push_back(start + situation.duration * k / looks);
+  std::ranges::sort(times);
+  return times;
+}
+
 // For each tool and condition: the time of the first contact, and the points met.
 using Meetings = std::map<std::pair<int, int>, std::pair<double, std::set<int>>>;
 
@@ -147,9 +172,10 @@ std::string overruled_motions(const Situation& situation) {
   Meetings met;
   std::vector<Vector> ways(body.owned());
   for (int i = 0; i < body.owned(); ++i) ways[i] = body.displacement(i);  // other than 0 after Start From
-  for (int k = 1; k <= looks; ++k) {
-    const double time = start + duration * k / looks;
-    move_on(scene.conditions, body.domain, time, duration / looks, ways);
+  const std::vector<double> times = times_of(situation, held);
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const double time = times[k];
+    move_on(scene.conditions, body.domain, time, time - times[k - 1], ways);
     for (std::size_t n = 0; n < tools.size(); ++n) {
       look(tools[n], static_cast<int>(n), held, body, ways, time, met);
     }

@@ -445,6 +445,8 @@ TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
               {"WARNING: the tool 'tool' runs into 16 points that 'foot' holds along its normal"});
   expect_told(told(motion("xyz", "0"), "10*t"), {"16 points that 'foot' holds", "tools have the last word"});
   expect_told(told(plane("cut", "Symmetry Plane", "foot", "0 0 0", "0 0 1"), "10*t"), {"16 points that 'cut' holds"});
+  const std::string stroke = "table(t, 0, 0, 1.005e-6, 0, 1.01e-6, 1e-4, 1.015e-6, 0)";  // within a thousandth
+  expect_told(told(motion("xyz", "0"), stroke), {"16 points that 'foot' holds", "by t = 1.0"});
   EXPECT_EQ(told(motion("xy", "0"), "10*t").find("last word"), std::string::npos) << "held across the normal";
   EXPECT_EQ(told(motion("z", "10"), "10*t").find("last word"), std::string::npos) << "one path";
   EXPECT_EQ(told(motion("xyz", "0"), "0").find("last word"), std::string::npos) << "it stands";
