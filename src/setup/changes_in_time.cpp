@@ -14,9 +14,10 @@ namespace {
 
 constexpr int halvings = 40;  // bisections between two samples that distinguish a jump from a steep slope
 
-// The jump between `from` and `to`, by halving the interval where it changes most: a steep slope leaves no jump.
-Jump jump_between(const OfTime& of_time, double from, double to) {
-  for (int n = 0; n < halvings; ++n) {
+// The jump between `from` and `to`, by halving the interval where it changes most: a steep slope leaves no jump. Or
+// what it changes in the part of this length, s, where it changes most.
+Jump jump_between(const OfTime& of_time, double from, double to, double length = 0) {
+  for (int n = 0; n < halvings && to - from > length; ++n) {
     const double middle = 0.5 * (from + to);
     if (std::abs(of_time(middle) - of_time(from)) > std::abs(of_time(to) - of_time(middle))) {
       to = middle;
@@ -34,6 +35,15 @@ void for_each_change(const OfTime& of_time, double start, double end, const Visi
     const double a = start + (end - start) * k / looks_in_a_run, b = start + (end - start) * (k + 1) / looks_in_a_run;
     visit(std::abs(of_time(b) - of_time(a)), a, b);
   }
+}
+
+// The change of a step that begins at `from`, if those before and after it add less than a third of it.
+double change_at_once(const OfTime& of_time, double from, const Steps& steps) {
+  const double step = steps.longest, to = from + step;
+  const double change = std::abs(of_time(to) - of_time(from));
+  const double before = std::abs(of_time(from) - of_time(std::max(steps.start, from - step)));
+  const double after = std::abs(of_time(to + step) - of_time(to));
+  return 3 * (before + after) < change ? change : 0;
 }
 
 // The numbers of a text, those of tables, too.
@@ -60,12 +70,22 @@ std::vector<double> thinned(const std::vector<double>& times, int most) {
   return some;
 }
 
-Jump largest_jump(const OfTime& of_time, double start, double end) {
-  double from = start, to = start, most = 0;
-  for_each_change(of_time, start, end, [&](double change, double a, double b) {
-    if (change > most) most = change, from = a, to = b;
-  });
-  return jump_between(of_time, from, to);
+Jump largest_jump(const OfTime& of_time, const Steps& steps, double least) {
+  const double apart = (steps.end - steps.start) / looks_in_a_run;
+  Jump worst;
+  for (int k = 0; k < looks_in_a_run; ++k) {
+    const double a = steps.start + k * apart, b = a + std::max(apart, steps.longest);
+    if (!(std::abs(of_time(b) - of_time(a)) > 0.5 * least)) continue;  // a half, if it goes on beyond b
+    const double near = jump_between(of_time, a, b, steps.longest).time;
+    for (const double part : {1.0, 0.75, 0.5, 0.25, 0.0}) {
+      const double from = std::max(steps.start, near - part * steps.longest);
+      const double change = change_at_once(of_time, from, steps);
+      if (!(change > std::max(least, worst.length))) continue;
+      const double time = jump_between(of_time, from, from + steps.longest).time;
+      if (time <= steps.end) worst = {time, change};
+    }
+  }
+  return worst;
 }
 
 std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end) {

@@ -19,8 +19,14 @@ struct Jump {
   double time = 0, length = 0;  // s, and m or the unit of a load
 };
 
-// The largest change of `of_time` between two samples, as a jump.
-Jump largest_jump(const OfTime& of_time, double start, double end);
+// The steps of a run.
+struct Steps {
+  double start, end, longest;  // s
+};
+
+// The largest change of `of_time` by more than `least` that is done within one step: a steady motion goes on in the
+// steps before and after, which here add less than a third of it. Its length is 0 if there is none.
+Jump largest_jump(const OfTime& of_time, const Steps& steps, double least);
 
 // The jumps of `of_time` by a tenth of its largest value or more, in order.
 std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -18,6 +19,9 @@ namespace {
 // throws points at some hundredths of the wave speed.
 constexpr double no_jump = 1e-6, sudden = 0.01;
 
+// Strain: a jump sends waves of this strain from all ends of a body. Metals yield at some tens of it.
+constexpr double sudden_strain = 1e-4;
+
 // The least time between two jumps of `of_time` by a tenth of its largest value or more, s; infinite without two.
 double shortest_pulse(const OfTime& of_time, double start, double end) {
   double largest = 0;
@@ -32,11 +36,11 @@ double shortest_pulse(const OfTime& of_time, double start, double end) {
   return shortest;
 }
 
-// The largest jump at the corners of the box.
-Jump largest_jump(const Function& value, const Where& where, double start, double end) {
+// The largest change by more than `least`, at the corners of the box, that is done within one step.
+Jump largest_jump(const Function& value, const Where& where, const Steps& steps, double least) {
   Jump worst;
   at_corners(value, where, [&](const OfTime& of_time) {
-    const Jump jump = strut::largest_jump(of_time, start, end);
+    const Jump jump = strut::largest_jump(of_time, steps, least);
     if (jump.length > worst.length) worst = jump;
   });
   return worst;
@@ -88,6 +92,14 @@ double longest_step(const Body& body) {
   return longest;
 }
 
+// The largest coefficient of thermal expansion of the points over all ranks, 1/K.
+double expansion_of(const std::vector<int>& points, const Body& body) {
+  double largest = 0;
+  for (const int i : points)
+    largest = std::max(largest, body.blocks[body.domain.cloud.blocks[i]].material.thermal_expansion);
+  return body.domain.communicator.max(largest);
+}
+
 }  // namespace
 
 std::string check_initial_displacements(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
@@ -130,16 +142,27 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
 
 std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
   if (deck.solver.quasi_static) return "";
+  const Steps steps{deck.solver.initial_time, deck.solver.final_time, longest_step(body)};
   std::ostringstream text;
   for (std::size_t c = 0; c < points.size(); ++c) {
-    const std::vector<Function> ways = ways_of(deck.conditions[c]);
-    if (std::none_of(ways.begin(), ways.end(), [](const Function& one) { return one.depends_on_time(); })) continue;
+    const deck::Condition& condition = deck.conditions[c];
+    std::vector<Function> values = ways_of(condition);
+    std::ranges::copy(straining_values(condition), std::back_inserter(values));
+    if (std::ranges::none_of(values, &Function::depends_on_time)) continue;
     const Where there = where(points[c], body);
-    for (const Function& way : ways) {
-      const Jump jump = largest_jump(way, there, deck.solver.initial_time, deck.solver.final_time);
-      if (!(jump.length > sudden * there.spacing)) continue;
-      text << "WARNING: " << way.path() << ": jumps by " << jump.length << " m, " << jump.length / there.spacing
-           << " spacings, at t = " << jump.time << " s: within one step; is it meant to change so suddenly?\n";
+    const auto* sides = std::get_if<PeriodicSides>(&condition.kind);
+    const bool heats = std::holds_alternative<PrescribedTemperature>(condition.kind);
+    // Metres, or the strain of a temperature, by a unit of the value; and how much of it is told.
+    const double size = sides ? sides->upper - sides->lower : heats ? expansion_of(points[c], body) : 1;
+    const double least = heats ? sudden_strain : sudden * there.spacing;
+    for (const Function& value : values) {
+      const Jump jump = largest_jump(value, there, steps, least / size);
+      if (!(jump.length > 0)) continue;
+      text << "WARNING: " << value.path() << ": jumps by " << jump.length;
+      if (heats) text << " K, a strain of " << size * jump.length;
+      if (sides) text << ", the distance of the sides by " << size * jump.length;
+      if (!heats) text << " m, " << size * jump.length / there.spacing << " spacings";
+      text << ", at t = " << jump.time << " s: within one step; is it meant to change so suddenly?\n";
     }
   }
   return text.str();

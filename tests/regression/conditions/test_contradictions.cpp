@@ -61,6 +61,14 @@ std::string cut(const std::string& name, const std::string& set, const std::stri
   return plane(name, "Symmetry Plane", set, "0 0 0", normal);
 }
 
+std::string heat(const std::string& value) {
+  return section("a", key("Type", "Prescribed Temperature") + key("Value", value));
+}
+std::string sides(const std::string& value) {
+  return section("a", key("Type", "Periodic Sides") + key("Coordinate", "z") + key("Lower", "0") +
+                          key("Upper", "6e-3") + key("Stretch", value));
+}
+
 TEST(Contradiction, OfTwoConditionsIsAnErrorThatNamesBothAndTheirPoints) {
   const std::vector<std::string> contradictions{
       velocity("a", "foot", "z", "1") + velocity("b", "side", "z", "-1"),
@@ -246,13 +254,6 @@ TEST(Values, BetweenLoadStepsAreTold) {
     EXPECT_EQ(warnings.find("in the middle of any load step") != std::string::npos, told) << value << warnings;
   }
   // Temperatures and the distance of sides count from those at the start.
-  const auto heat = [](const std::string& value) {
-    return section("a", key("Type", "Prescribed Temperature") + key("Value", value));
-  };
-  const auto sides = [](const std::string& value) {
-    return section("a", key("Type", "Periodic Sides") + key("Coordinate", "z") + key("Lower", "0") +
-                            key("Upper", "6e-3") + key("Stretch", value));
-  };
   const std::string wave = "sin(3.14159265358979e6*2*t)", slow = "sin(1e6*t)";
   for (const auto& condition : {heat("293 + 50*" + wave), sides("1 + 1e-3*" + wave)}) {
     expect_said(said_of(block(condition), Loading::slow).warnings, {"changes by", "between two load steps"}, condition);
@@ -269,10 +270,35 @@ TEST(Displacement, ThatJumpsIsTold) {
   const std::string tool = section(
       "roll", key("Type", "Rigid Plane") + key("Point", "0 0 -1e-3") + key("Normal", "0 0 1") + key("Travel Z", jump));
   expect_said(said_of(block(tool)).warnings, {"WARNING: Boundary Conditions > roll > Travel Z: jumps"}, "a tool");
-  // Steep, but without a jump; no displacement.
+  // Steps are some 0.2 µs long: this is done within a tenth of one. In the longer run it is so between two samples.
+  const std::string ramp = "1e-4*min(max(t/2e-8 - 100.05, 0), 1)";
+  for (const char* end : {"5e-6", "5e-3"}) {
+    Parts parts = block(displacement("a", "foot", "z", ramp));
+    parts.times = key("Final Time", end);
+    expect_said(said_of(parts).warnings,
+                {"WARNING: Boundary Conditions > a > Value: jumps by 0.0001 m, 0.1 spacings, at t = 2.0"}, end);
+  }
+  // Steady, though some hundredths of a spacing in each step; over some steps; no displacement.
   for (const std::string& smooth :
-       {displacement("a", "foot", "z", "1e-4*erf(1e7*t)"), velocity("a", "foot", "z", jump)}) {
-    EXPECT_EQ(said_of(block(smooth)).warnings.find("jumps"), std::string::npos) << smooth;
+       {displacement("a", "foot", "z", "200*t"), displacement("a", "foot", "z", "200*max(t - 2e-6, 0)"),
+        displacement("a", "foot", "z", "1e-4*erf(1e6*t)"), velocity("a", "foot", "z", jump)}) {
+    EXPECT_EQ(said_of(block(smooth)).warnings.find("so suddenly"), std::string::npos) << smooth;
+  }
+}
+
+TEST(Strains, ThatJumpAreTold) {
+  const auto said = [](const std::string& condition) {
+    Parts parts = block(condition);
+    parts.materials = copper(key("Yield Stress", "50e6") + key("Thermal Expansion Coefficient", "1e-5"));
+    return said_of(parts).warnings;
+  };
+  expect_said(said(heat("293 + (t &gt; 2e-6)*100")),
+              {"a > Value: jumps by 100 K, a strain of 0.001, at t = 2e-06 s: within one step"}, "heat");
+  expect_said(said(sides("1 + (t &gt; 2e-6)*0.01")),
+              {"a > Stretch: jumps by 0.01, the distance of the sides by 6e-05 m, 0.06 spacings, at t = 2e-06 s"},
+              "sides");
+  for (const std::string& slow : {heat("293 + 2e8*t"), heat("293 + (t &gt; 2e-6)*5"), sides("1 + 2e4*t")}) {
+    EXPECT_EQ(said(slow).find("so suddenly"), std::string::npos) << slow;
   }
 }
 
