@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <set>
@@ -139,7 +141,48 @@ void look(const RigidTool& tool, int n, const std::vector<Held>& held, const Bod
   }
 }
 
+// For each body, over all ranks: the bonds that it has across the sides of the period, and the points that no
+// condition holds along its axis, or one whose value depends on place and may follow the sides.
+std::vector<std::array<double, 2>> free_points(const Situation& situation, const Period& period,
+                                               const std::vector<Held>& held) {
+  const Domain& domain = situation.scene.body.domain;
+  std::vector<std::uint8_t> is_held(domain.owned, 0);
+  for (const Held& one : held) {
+    const auto* motion = std::get_if<PrescribedMotion>(&situation.deck.conditions[one.condition].kind);
+    if (std::abs(one.direction[period.axis]) < one.part || (motion && motion->value.depends_on_place())) continue;
+    for (const int i : one.points) is_held[i] = 1;
+  }
+  std::vector<double> shifts(domain.sites.size(), 0);
+  for (const ImagePoint& image : domain.halo.images()) shifts[image.ghost] = image.by.period[period.axis];
+  std::vector<std::array<double, 2>> counts(domain.blocks.size(), {0, 0});
+  for (int i = 0; i < domain.owned; ++i) {
+    auto& [across, free] = counts[domain.body_of(i)];
+    domain.families.for_each(i, [&](int j) { across += shifts[j] != 0 ? 1 : 0; });
+    free += is_held[i] != 0 ? 0 : 1;
+  }
+  for (auto& body : counts) domain.communicator.sum(body);
+  return counts;
+}
+
 }  // namespace
+
+std::string held_stretches(const Situation& situation) {
+  const Domain& domain = situation.scene.body.domain;
+  std::string text;
+  for (const Period& period : domain.periods) {
+    if (!period.stretch.depends_on_time()) continue;
+    const auto counts = free_points(situation, period, held_directions(situation.deck, domain.cloud));
+    for (std::size_t b = 0; b < domain.blocks.size(); ++b) {
+      const auto& [across, free] = counts[domain.blocks[b].body];
+      if (across == 0 || free > 0) continue;
+      text += "WARNING: Boundary Conditions > " + situation.deck.conditions[period.number].name +
+              " > Stretch: conditions hold all points of the body of block '" + domain.cloud.block_names[b] +
+              "' along " + "xyz"[period.axis] +
+              ": the bonds across the sides take all of the stretch; expected points that are free to follow it\n";
+    }
+  }
+  return text;
+}
 
 std::string held_ends(const Situation& situation) {
   const deck::Deck& deck = situation.deck;

@@ -456,6 +456,27 @@ TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
               {"16 points that 'foot' holds", "what the tool loses to them depends on the time step"});
 }
 
+// What all points hold against the sides is taken by the bonds across them, several times what a free body bears.
+TEST(Stretches, ThatHeldPointsCannotFollowAreWarnedOf) {
+  const auto told = [](const std::string& stretch, const std::string& condition) {
+    Parts parts;
+    parts.conditions = section("sides", key("Type", "Periodic Sides") + key("Coordinate", "z") + key("Lower", "0") +
+                                            key("Upper", "6e-3") + key("Stretch", stretch)) +
+                       condition;
+    return told_of(parts);
+  };
+  const auto hold = [](const std::string& set, const std::string& axis, const std::string& value) {
+    return along("hold", "Prescribed Displacement", set, axis, value);
+  };
+  const std::string grows = "1 + 1e8*t*t", warning = "Stretch: conditions hold all points of the body";
+  expect_told(told(grows, hold("all", "z", "0")), {"Boundary Conditions > sides > " + warning + " of block 'bar'"});
+  expect_told(told(grows, plane("cut", "Symmetry Plane", "all", "0 0 0", "0 0 1")), {warning});
+  for (const std::string& free : {told("1", hold("all", "z", "0")), told(grows, hold("foot", "z", "0")),
+                                  told(grows, hold("all", "x", "0")), told(grows, hold("all", "z", "1e8*t*t*z"))}) {
+    EXPECT_EQ(free.find(warning), std::string::npos) << free;
+  }
+}
+
 TEST(Ends, ThatConditionsHoldAlongTheirNormalAreWarnedOf) {
   const auto told = [](const std::string& axes) {
     Parts parts;
