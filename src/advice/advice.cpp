@@ -30,6 +30,7 @@ constexpr Check checks[] = {
     tools_across_sides,
     meeting_tools,
     overruled_motions,
+    held_stretches,
     held_ends,
     thin_members,
     narrow_surfaces_of_nodes,

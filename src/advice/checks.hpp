@@ -174,6 +174,10 @@ std::string thin_tools(const Situation& situation);
 // other motions of such points, and tools driven by forces, are not considered.
 std::string overruled_motions(const Situation& situation);
 
+// A warning for each block and Stretch of periodic sides that changes while conditions hold all points of the body,
+// which goes on across the sides, along their axis.
+std::string held_stretches(const Situation& situation);
+
 // A warning for each non-reflecting end whose points a condition holds along its normal.
 std::string held_ends(const Situation& situation);
 

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <set>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "advice/checks.hpp"
+#include "setup/changes_in_time.hpp"
 #include "setup/found_points.hpp"
 #include "topology/point_group.hpp"
 
@@ -17,7 +20,7 @@ namespace strut {
 
 namespace {
 
-constexpr int looks = 64;         // samples of the paths of tools and points
+constexpr int looks = 64;         // samples of the paths of tools and points, and as many where these turn or jump
 constexpr double deep = 1e-3;     // spacings: accuracy of positions
 constexpr double along = 1e-3;    // component of a normal along a held direction
 constexpr double opposite = 0.9;  // the same for a symmetry plane, whose adjacent cells a tool may push obliquely
@@ -91,6 +94,30 @@ void move_on(const Conditions& conditions, const Domain& domain, double time, do
   });
 }
 
+// The times at which paths are looked at, from the start on, s. Collective.
+std::vector<double> times_of(const Situation& situation, const std::vector<Held>& held) {
+  const double start = situation.start, end = start + situation.duration;
+  const Body& body = situation.scene.body;
+  std::vector<double> changes, times{start};
+  const auto add = [&](const Function& value, const std::vector<int>& points) {
+    std::ranges::copy(changes_of(value, where(points, body), start, end), std::back_inserter(changes));
+  };
+  for (const deck::Condition& condition : situation.deck.conditions) {
+    const auto* tool = std::get_if<RigidTool>(&condition.kind);
+    if (!tool || tool->free) continue;
+    for (const Function& travel : tool->values_at_points()) add(travel, {});
+  }
+  for (const Held& one : held) {
+    const auto* motion = std::get_if<PrescribedMotion>(&situation.deck.conditions[one.condition].kind);
+    if (motion) add(motion->value, one.points);
+  }
+  std::ranges::sort(changes);
+  std::ranges::copy(thinned(changes, looks), std::back_inserter(times));
+  for (int k = 1; k <= looks; ++k) times.push_back(start + situation.duration * k / looks);
+  std::ranges::sort(times);
+  return times;
+}
+
 // For each tool and condition: the time of the first contact, and the points met.
 using Meetings = std::map<std::pair<int, int>, std::pair<double, std::set<int>>>;
 
@@ -114,7 +141,48 @@ void look(const RigidTool& tool, int n, const std::vector<Held>& held, const Bod
   }
 }
 
+// For each body, over all ranks: the bonds that it has across the sides of the period, and the points that no
+// condition holds along its axis, or one whose value depends on place and may follow the sides.
+std::vector<std::array<double, 2>> free_points(const Situation& situation, const Period& period,
+                                               const std::vector<Held>& held) {
+  const Domain& domain = situation.scene.body.domain;
+  std::vector<std::uint8_t> is_held(domain.owned, 0);
+  for (const Held& one : held) {
+    const auto* motion = std::get_if<PrescribedMotion>(&situation.deck.conditions[one.condition].kind);
+    if (std::abs(one.direction[period.axis]) < one.part || (motion && motion->value.depends_on_place())) continue;
+    for (const int i : one.points) is_held[i] = 1;
+  }
+  std::vector<double> shifts(domain.sites.size(), 0);
+  for (const ImagePoint& image : domain.halo.images()) shifts[image.ghost] = image.by.period[period.axis];
+  std::vector<std::array<double, 2>> counts(domain.blocks.size(), {0, 0});
+  for (int i = 0; i < domain.owned; ++i) {
+    auto& [across, free] = counts[domain.body_of(i)];
+    domain.families.for_each(i, [&](int j) { across += shifts[j] != 0 ? 1 : 0; });
+    free += is_held[i] != 0 ? 0 : 1;
+  }
+  for (auto& body : counts) domain.communicator.sum(body);
+  return counts;
+}
+
 }  // namespace
+
+std::string held_stretches(const Situation& situation) {
+  const Domain& domain = situation.scene.body.domain;
+  std::string text;
+  for (const Period& period : domain.periods) {
+    if (!period.stretch.depends_on_time()) continue;
+    const auto counts = free_points(situation, period, held_directions(situation.deck, domain.cloud));
+    for (std::size_t b = 0; b < domain.blocks.size(); ++b) {
+      const auto& [across, free] = counts[domain.blocks[b].body];
+      if (across == 0 || free > 0) continue;
+      text += "WARNING: Boundary Conditions > " + situation.deck.conditions[period.number].name +
+              " > Stretch: conditions hold all points of the body of block '" + domain.cloud.block_names[b] +
+              "' along " + "xyz"[period.axis] +
+              ": the bonds across the sides take all of the stretch; expected points that are free to follow it\n";
+    }
+  }
+  return text;
+}
 
 std::string held_ends(const Situation& situation) {
   const deck::Deck& deck = situation.deck;
@@ -147,9 +215,10 @@ std::string overruled_motions(const Situation& situation) {
   Meetings met;
   std::vector<Vector> ways(body.owned());
   for (int i = 0; i < body.owned(); ++i) ways[i] = body.displacement(i);  // other than 0 after Start From
-  for (int k = 1; k <= looks; ++k) {
-    const double time = start + duration * k / looks;
-    move_on(scene.conditions, body.domain, time, duration / looks, ways);
+  const std::vector<double> times = times_of(situation, held);
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const double time = times[k];
+    move_on(scene.conditions, body.domain, time, time - times[k - 1], ways);
     for (std::size_t n = 0; n < tools.size(); ++n) {
       look(tools[n], static_cast<int>(n), held, body, ways, time, met);
     }

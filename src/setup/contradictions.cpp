@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "setup/changes_in_time.hpp"
 #include "setup/found_points.hpp"
 
 namespace strut {
@@ -17,10 +18,12 @@ constexpr double round_off = 1e-9;  // of directions and values
 // Directions closer than this count as one: motion orthogonal to them would have to be a hundred times as fast.
 constexpr double smallest_part = 0.01;
 
-// The values of several conditions are compared at this number of times in a run. If displacements and velocities are
-// mixed, velocities are integrated, and compared with this relative tolerance.
-constexpr int looks = 16;
+// If displacements and velocities are mixed, velocities are integrated, and compared with this relative tolerance.
 constexpr double of_sums = 1e-3;
+
+// Values that depend on place are compared at each point, so at fewer times if there are many: some seconds at most.
+constexpr int fewest_looks = 64;
+constexpr double most_looks_at_points = 1e7;
 
 using Holds = std::vector<Hold>;
 
@@ -80,28 +83,47 @@ SharedPoints shared(const std::vector<Holds>& holds, const PointsOfConditions& p
   return all;
 }
 
-// The times in a run at which values are compared.
-struct Times {
-  double start, end;
-  int count;
-  double step() const { return (end - start) / count; }
-  double middle(int k) const { return start + (k + 0.5) * step(); }
+// Values are compared in the middle of each of these intervals, displacements and sums of velocities at their ends.
+struct Interval {
+  double from, to;  // s; the same for a time that is looked at by itself
+  double middle() const { return 0.5 * (from + to); }
 };
+using Times = std::vector<Interval>;
 
-// Targets of a hold at the end of each interval: velocities at mid-interval, or displacements. `summed`: these since
-// the start, as sums of velocities are.
-std::vector<double> targets(const Hold& hold, const Vector& X, const Times& times, bool as_displacements, bool summed) {
-  std::vector<double> all(times.count, 0);
+// Equal intervals, which end also where values may turn or jump; load steps and their middles by themselves.
+Times times_of(const deck::Solver& steps, const std::vector<double>& changes, int looks) {
+  constexpr double at_once = 1e-9;  // of the run: no more than round-off in the time of a jump
+  const double start = steps.initial_time, duration = steps.final_time - start;
+  std::vector<double> ends = thinned(changes, looks);
+  for (int k = 0; k <= looks; ++k) ends.push_back(start + duration * k / looks);
+  std::ranges::sort(ends);
+  Times times;
+  for (std::size_t n = 1; n < ends.size(); ++n) {
+    if (ends[n] - ends[n - 1] > at_once * duration) times.push_back({ends[n - 1], ends[n]});
+  }
+  const int halves = steps.quasi_static ? std::min(2 * steps.quasi_static->load_steps, 2 * looks) : 0;
+  for (int k = 1; k <= halves; ++k) {
+    const double t = start + duration * k / halves;
+    times.push_back({t, t});
+  }
+  std::ranges::sort(times, {}, &Interval::to);
+  return times;
+}
+
+// Targets of a hold in each interval, at its middle; or, if `summed`, displacements since the start at its end.
+std::vector<double> targets(const Hold& hold, const Vector& X, const Times& times, bool summed) {
+  std::vector<double> all(times.size(), 0);
   if (!hold.value) return all;
   const auto at = [&](double t) { return hold.value->evaluate(X[0], X[1], X[2], t); };
-  const double before = summed && !hold.is_velocity ? at(times.start) : 0;
+  const double before = summed && !hold.is_velocity ? at(times.front().from) : 0;
   double sum = 0;
-  for (int k = 0; k < times.count; ++k) {
-    if (!hold.is_velocity) {
-      all[k] = at(times.start + (k + 1) * times.step()) - before;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const Interval& one = times[k];
+    if (summed && !hold.is_velocity) {
+      all[k] = at(one.to) - before;
     } else {
-      const double velocity = at(times.middle(k));
-      all[k] = as_displacements ? sum += velocity * times.step() : velocity;
+      const double value = at(one.middle());
+      all[k] = summed ? sum += value * (one.to - one.from) : value;
     }
   }
   return all;
@@ -120,28 +142,53 @@ Pair pair_of(const Holds& holds, std::size_t h) {
   return std::minmax(other, holds[h].condition);
 }
 
+// A hold in the space that the earlier ones leave free.
+struct Left {
+  Vector along;   // of unit length; zero if they leave it no motion
+  double length;  // of the part of its direction that is left
+};
+
+std::vector<Left> what_is_left(const Holds& holds) {
+  Tensor free = Tensor::Identity();
+  std::vector<Left> all;
+  for (const Hold& one : holds) {
+    const Vector left = free * one.direction;
+    const double length = left.norm();
+    all.push_back({length < smallest_part ? Vector(Vector::Zero()) : Vector(left / length), length});
+    free -= all.back().along * all.back().along.transpose();
+  }
+  return all;
+}
+
+double largest_of(const std::vector<std::vector<double>>& wanted) {
+  double largest = 0;
+  for (const auto& targets : wanted) {
+    for (const double one : targets) largest = std::isfinite(one) ? std::max(largest, std::abs(one)) : largest;
+  }
+  return largest;
+}
+
 // The two conditions that leave the point no motion, if any do: the directions are held one after the other, each in
 // the space that the earlier ones leave free.
 std::optional<Pair> contradiction(const Holds& holds, const Vector& X, const Times& times) {
   const auto is_velocity = [](const Hold& one) { return one.is_velocity; };
-  const bool as_displacements = !std::all_of(holds.begin(), holds.end(), is_velocity);
-  const bool summed = as_displacements && std::any_of(holds.begin(), holds.end(),
-                                                      [](const Hold& one) { return one.is_velocity && one.value; });
+  const bool summed = !std::ranges::all_of(holds, is_velocity) &&
+                      std::ranges::any_of(holds, [](const Hold& one) { return one.is_velocity && one.value; });
   std::vector<std::vector<double>> wanted;
-  for (const Hold& one : holds) wanted.push_back(targets(one, X, times, as_displacements, summed));
-  for (int k = 0; k < times.count; ++k) {
-    Tensor free = Tensor::Identity();
+  for (const Hold& one : holds) wanted.push_back(targets(one, X, times, summed));
+  const std::vector<Left> left = what_is_left(holds);
+  const double none = round_off * largest_of(wanted);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (summed && times[k].from == times[k].to) continue;  // sums are those up to the interval before
     Vector motion = Vector::Zero();
     for (std::size_t h = 0; h < holds.size(); ++h) {
-      const Vector& direction = holds[h].direction;
-      const Vector left = free * direction;
-      const double length = left.norm(), missing = wanted[h][k] - direction.dot(motion);
+      const double missing = wanted[h][k] - holds[h].direction.dot(motion);
       const double scale = std::max(std::abs(wanted[h][k]), motion.norm());
-      if (length < smallest_part && std::abs(missing) > (summed ? of_sums : round_off) * scale)
+      if (left[h].length >= smallest_part) {
+        motion += missing / left[h].length * left[h].along;
+      } else if (std::abs(missing) > (summed ? of_sums : round_off) * scale + none) {
         return pair_of(holds, h);
-      if (length < smallest_part) continue;
-      motion += missing / length * (left / length);
-      free -= left / length * (left / length).transpose();
+      }
     }
   }
   return std::nullopt;
@@ -152,21 +199,47 @@ bool depends_on_place(const Holds& holds) {
                      [](const Hold& one) { return one.value && one.value->depends_on_place(); });
 }
 
+// The times for values that depend on time alone, and for the others.
+struct Looks {
+  Times of_time, of_place;
+};
+
+// Collective.
+Looks looks_at(const SharedPoints& shared, const deck::Deck& deck, const deck::Solver& steps,
+               const PointsOfConditions& points, const Body& body) {
+  std::vector<double> changes;
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const auto* motion = std::get_if<PrescribedMotion>(&deck.conditions[c].kind);
+    if (!motion || !motion->value.depends_on_time()) continue;
+    const std::vector<double> some =
+        changes_of(motion->value, where(points[c], body), steps.initial_time, steps.final_time);
+    changes.insert(changes.end(), some.begin(), some.end());
+  }
+  std::ranges::sort(changes);
+  double count = 0;
+  for (const auto& [i, holds] : shared) count += depends_on_place(holds) ? 1 : 0;
+  count = std::max(1.0, body.domain.communicator.sum(count));
+  const double looks = std::clamp<double>(most_looks_at_points / count, fewest_looks, looks_in_a_run);
+  return {times_of(steps, changes, std::max<int>(looks_in_a_run, static_cast<int>(changes.size()))),
+          times_of(steps, changes, static_cast<int>(looks))};
+}
+
 // For each pair of conditions, the points at which they contradict each other.
 std::map<Pair, std::vector<int>> contradicting_points(const SharedPoints& shared, const Body& body,
-                                                      const Times& times) {
+                                                      const Looks& looks) {
   std::map<Pair, std::vector<int>> all;
   std::map<std::vector<int>, std::optional<Pair>> known;  // by conditions, for values independent of position
   for (const auto& [i, holds] : shared) {
     std::vector<int> conditions;
     for (const Hold& one : holds) conditions.push_back(one.condition);
+    const bool by_place = depends_on_place(holds);
     std::optional<Pair> found;
     const auto before = known.find(conditions);
-    if (before != known.end() && !depends_on_place(holds)) {
+    if (before != known.end() && !by_place) {
       found = before->second;
     } else {
-      found = contradiction(holds, body.domain.reference(i), times);
-      known[conditions] = found;
+      found = contradiction(holds, body.domain.reference(i), by_place ? looks.of_place : looks.of_time);
+      if (!by_place) known[conditions] = found;
     }
     if (found) all[*found].push_back(i);
   }
@@ -203,19 +276,20 @@ SharedPoints shared_points(const deck::Deck& deck, const PointsOfConditions& poi
 
 void check_contradictions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
                           deck::Problems& problems) {
-  const double start = deck.solver.initial_time;
   const SharedPoints held = shared_points(deck, points);
-  tell(contradicting_points(held, body, {start, deck.solver.final_time, looks}), "motion", deck, body, problems);
-  const deck::Solver& steps = deck.next_solver ? *deck.next_solver : deck.solver;  // which initial velocities begin
-  if (deck.next_solver)
-    tell(contradicting_points(held, body, {steps.initial_time, steps.final_time, looks}), "motion", deck, body,
+  const auto check = [&](const deck::Solver& steps) {
+    tell(contradicting_points(held, body, looks_at(held, deck, steps, points, body)), "motion", deck, body, problems);
+  };
+  check(deck.solver);
+  if (deck.next_solver) check(*deck.next_solver);
+  const auto check_initial = [&](Holds (*of)(const deck::Condition&, int), double t, const std::string& what) {
+    const Times at_once{{t, t}};
+    tell(contradicting_points(shared(holds_by_condition(deck, of), points), body, {at_once, at_once}), what, deck, body,
          problems);
-  tell(contradicting_points(shared(holds_by_condition(deck, initial_holds_of<InitialVelocity>), points), body,
-                            {steps.initial_time, steps.initial_time, 1}),
-       "initial velocity", deck, body, problems);
-  tell(contradicting_points(shared(holds_by_condition(deck, initial_holds_of<InitialDisplacement>), points), body,
-                            {start, start, 1}),
-       "initial displacement", deck, body, problems);
+  };
+  const deck::Solver& steps = deck.next_solver ? *deck.next_solver : deck.solver;  // which initial velocities begin
+  check_initial(initial_holds_of<InitialVelocity>, steps.initial_time, "initial velocity");
+  check_initial(initial_holds_of<InitialDisplacement>, deck.solver.initial_time, "initial displacement");
 }
 
 Vector push_of_plane(const std::vector<Hold>& holds, int condition) {

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <sstream>
 #include <variant>
 
+#include "setup/changes_in_time.hpp"
 #include "setup/found_points.hpp"
-#include "topology/bounding_box.hpp"
 
 namespace strut {
 
@@ -18,94 +19,28 @@ namespace {
 // throws points at some hundredths of the wave speed.
 constexpr double no_jump = 1e-6, sudden = 0.01;
 
-constexpr int looks = 1000;   // samples of a function of time in a run
-constexpr int halvings = 40;  // bisections between two samples that distinguish a jump from a steep slope
-
-struct Jump {
-  double time = 0, length = 0;  // s, and m or the unit of a load
-};
-
-// The jump between `from` and `to`, by halving the interval where it changes most: a steep slope leaves no jump.
-template <class OfTime>
-Jump jump_between(const OfTime& of_time, double from, double to) {
-  for (int n = 0; n < halvings; ++n) {
-    const double middle = 0.5 * (from + to);
-    if (std::abs(of_time(middle) - of_time(from)) > std::abs(of_time(to) - of_time(middle))) {
-      to = middle;
-    } else {
-      from = middle;
-    }
-  }
-  return {to, std::abs(of_time(to) - of_time(from))};
-}
-
-// Calls visit(change, from, to) between each two samples in time.
-template <class OfTime, class Visit>
-void for_each_change(const OfTime& of_time, double start, double end, const Visit& visit) {
-  for (int k = 0; k < looks; ++k) {
-    const double a = start + (end - start) * k / looks, b = start + (end - start) * (k + 1) / looks;
-    visit(std::abs(of_time(b) - of_time(a)), a, b);
-  }
-}
-
-// The largest change of `of_time` between two samples, as a jump.
-template <class OfTime>
-Jump largest_jump(const OfTime& of_time, double start, double end) {
-  double from = start, to = start, most = 0;
-  for_each_change(of_time, start, end, [&](double change, double a, double b) {
-    if (change > most) most = change, from = a, to = b;
-  });
-  return jump_between(of_time, from, to);
-}
+// Strain: a jump sends waves of this strain from all ends of a body. Metals yield at some tens of it.
+constexpr double sudden_strain = 1e-4;
 
 // The least time between two jumps of `of_time` by a tenth of its largest value or more, s; infinite without two.
-template <class OfTime>
 double shortest_pulse(const OfTime& of_time, double start, double end) {
   double largest = 0;
-  for (int k = 0; k <= looks; ++k) largest = std::max(largest, std::abs(of_time(start + (end - start) * k / looks)));
+  for (int k = 0; k <= looks_in_a_run; ++k)
+    largest = std::max(largest, std::abs(of_time(start + (end - start) * k / looks_in_a_run)));
   double last = -std::numeric_limits<double>::infinity(), shortest = -last;
   if (std::abs(of_time(start)) > 0.1 * largest) last = start;
-  for_each_change(of_time, start, end, [&](double change, double a, double b) {
-    if (!(change > 0.1 * largest)) return;
-    const Jump jump = jump_between(of_time, a, b);
-    if (!(jump.length > 0.1 * largest)) return;
+  for (const Jump& jump : jumps_of(of_time, start, end)) {
     shortest = std::min(shortest, jump.time - last);
     last = jump.time;
-  });
+  }
   return shortest;
 }
 
-// The box of the points of a condition over all ranks, and their least spacing.
-struct Where {
-  Eigen::AlignedBox3d box;
-  double spacing = std::numeric_limits<double>::infinity();
-};
-
-Where where(const std::vector<int>& points, const Body& body) {
-  Where all;
-  for (const int i : points) {
-    all.box.extend(body.domain.reference(i));
-    all.spacing = std::min(all.spacing, body.domain.cloud.spacings[i]);
-  }
-  all.box = common_box(all.box, body.domain.communicator);
-  all.spacing = body.domain.communicator.min(all.spacing);
-  return all;
-}
-
-// Calls visit(of_time) with the value as a function of time at each corner of the box, or once if it is the same there.
-template <class Visit>
-void at_corners(const Function& value, const Where& where, const Visit& visit) {
-  for (int corner = 0; corner < (value.depends_on_place() ? 8 : 1); ++corner) {
-    const Vector X = where.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-    visit([&](double t) { return value.evaluate(X[0], X[1], X[2], t); });
-  }
-}
-
-// The largest jump at the corners of the box.
-Jump largest_jump(const Function& value, const Where& where, double start, double end) {
+// The largest change by more than `least`, at the corners of the box, that is done within one step.
+Jump largest_jump(const Function& value, const Where& where, const Steps& steps, double least) {
   Jump worst;
-  at_corners(value, where, [&](const auto& of_time) {
-    const Jump jump = largest_jump(of_time, start, end);
+  at_corners(value, where, [&](const OfTime& of_time) {
+    const Jump jump = strut::largest_jump(of_time, steps, least);
     if (jump.length > worst.length) worst = jump;
   });
   return worst;
@@ -157,6 +92,14 @@ double longest_step(const Body& body) {
   return longest;
 }
 
+// The largest coefficient of thermal expansion of the points over all ranks, 1/K.
+double expansion_of(const std::vector<int>& points, const Body& body) {
+  double largest = 0;
+  for (const int i : points)
+    largest = std::max(largest, body.blocks[body.domain.cloud.blocks[i]].material.thermal_expansion);
+  return body.domain.communicator.max(largest);
+}
+
 }  // namespace
 
 std::string check_initial_displacements(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
@@ -199,16 +142,27 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
 
 std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
   if (deck.solver.quasi_static) return "";
+  const Steps steps{deck.solver.initial_time, deck.solver.final_time, longest_step(body)};
   std::ostringstream text;
   for (std::size_t c = 0; c < points.size(); ++c) {
-    const std::vector<Function> ways = ways_of(deck.conditions[c]);
-    if (std::none_of(ways.begin(), ways.end(), [](const Function& one) { return one.depends_on_time(); })) continue;
+    const deck::Condition& condition = deck.conditions[c];
+    std::vector<Function> values = ways_of(condition);
+    std::ranges::copy(straining_values(condition), std::back_inserter(values));
+    if (std::ranges::none_of(values, &Function::depends_on_time)) continue;
     const Where there = where(points[c], body);
-    for (const Function& way : ways) {
-      const Jump jump = largest_jump(way, there, deck.solver.initial_time, deck.solver.final_time);
-      if (!(jump.length > sudden * there.spacing)) continue;
-      text << "WARNING: " << way.path() << ": jumps by " << jump.length << " m, " << jump.length / there.spacing
-           << " spacings, at t = " << jump.time << " s: within one step; is it meant to change so suddenly?\n";
+    const auto* sides = std::get_if<PeriodicSides>(&condition.kind);
+    const bool heats = std::holds_alternative<PrescribedTemperature>(condition.kind);
+    // Metres, or the strain of a temperature, by a unit of the value; and how much of it is told.
+    const double size = sides ? sides->upper - sides->lower : heats ? expansion_of(points[c], body) : 1;
+    const double least = heats ? sudden_strain : sudden * there.spacing;
+    for (const Function& value : values) {
+      const Jump jump = largest_jump(value, there, steps, least / size);
+      if (!(jump.length > 0)) continue;
+      text << "WARNING: " << value.path() << ": jumps by " << jump.length;
+      if (heats) text << " K, a strain of " << size * jump.length;
+      if (sides) text << ", the distance of the sides by " << size * jump.length;
+      if (!heats) text << " m, " << size * jump.length / there.spacing << " spacings";
+      text << ", at t = " << jump.time << " s: within one step; is it meant to change so suddenly?\n";
     }
   }
   return text.str();
@@ -224,7 +178,7 @@ std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& poi
     for (const Function& value : sampled_values(deck.conditions[c])) {
       if (!value.depends_on_time()) continue;
       double pulse = std::numeric_limits<double>::infinity();
-      at_corners(value, where(points[c], body), [&](const auto& of_time) {
+      at_corners(value, where(points[c], body), [&](const OfTime& of_time) {
         pulse = std::min(pulse, shortest_pulse(of_time, deck.solver.initial_time, deck.solver.final_time));
       });
       if (!(step > told * pulse)) continue;
@@ -256,7 +210,7 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
     for (const Function& value : values) {
       if (!value.depends_on_time()) continue;
       double at_load_steps = 0, between = 0, time = 0, zero = 0;
-      at_corners(value, where(points[c], body), [&](const auto& of_time) {
+      at_corners(value, where(points[c], body), [&](const OfTime& of_time) {
         if (strains) zero = of_time(start);
         for (int k = 0; k <= looks_between * load_steps; ++k) {
           const double t = start + duration * k / (looks_between * load_steps), size = std::abs(of_time(t) - zero);

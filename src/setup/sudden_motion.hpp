@@ -17,7 +17,8 @@ enum class MayRest { no, yes };
 std::string check_initial_displacements(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
                                         deck::Problems& problems, MayRest may_rest = MayRest::no);
 
-// Collective. For explicit steps: warns of jumps in displacements and in the travel of tools, a line each.
+// Collective. For explicit steps: warns of changes within one step of displacements, the travel of tools, temperatures
+// and the distance of periodic sides, a line each.
 std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);
 
 // Collective. For explicit steps: warns of loads and velocities that jump up and down within so few steps that their

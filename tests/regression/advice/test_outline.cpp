@@ -462,6 +462,8 @@ TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
               {"WARNING: the tool 'tool' runs into 16 points that 'foot' holds along its normal"});
   expect_told(told(motion("xyz", "0"), "10*t"), {"16 points that 'foot' holds", "tools have the last word"});
   expect_told(told(plane("cut", "Symmetry Plane", "foot", "0 0 0", "0 0 1"), "10*t"), {"16 points that 'cut' holds"});
+  const std::string stroke = "table(t, 0, 0, 1.005e-6, 0, 1.01e-6, 1e-4, 1.015e-6, 0)";  // within a thousandth
+  expect_told(told(motion("xyz", "0"), stroke), {"16 points that 'foot' holds", "by t = 1.0"});
   EXPECT_EQ(told(motion("xy", "0"), "10*t").find("last word"), std::string::npos) << "held across the normal";
   EXPECT_EQ(told(motion("z", "10"), "10*t").find("last word"), std::string::npos) << "one path";
   EXPECT_EQ(told(motion("xyz", "0"), "0").find("last word"), std::string::npos) << "it stands";
@@ -469,6 +471,27 @@ TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
       key("Point", "0 0 0") + key("Normal", "0 0 1") + key("Mass", "1e-3") + key("Speed Z", "10");
   expect_told(told_of_tool("Rigid Plane", flying_tool, motion("xyz", "0"), "1e-5"),
               {"16 points that 'foot' holds", "what the tool loses to them depends on the time step"});
+}
+
+// What all points hold against the sides is taken by the bonds across them, several times what a free body bears.
+TEST(Stretches, ThatHeldPointsCannotFollowAreWarnedOf) {
+  const auto told = [](const std::string& stretch, const std::string& condition) {
+    Parts parts;
+    parts.conditions = section("sides", key("Type", "Periodic Sides") + key("Coordinate", "z") + key("Lower", "0") +
+                                            key("Upper", "6e-3") + key("Stretch", stretch)) +
+                       condition;
+    return told_of(parts);
+  };
+  const auto hold = [](const std::string& set, const std::string& axis, const std::string& value) {
+    return along("hold", "Prescribed Displacement", set, axis, value);
+  };
+  const std::string grows = "1 + 1e8*t*t", warning = "Stretch: conditions hold all points of the body";
+  expect_told(told(grows, hold("all", "z", "0")), {"Boundary Conditions > sides > " + warning + " of block 'bar'"});
+  expect_told(told(grows, plane("cut", "Symmetry Plane", "all", "0 0 0", "0 0 1")), {warning});
+  for (const std::string& free : {told("1", hold("all", "z", "0")), told(grows, hold("foot", "z", "0")),
+                                  told(grows, hold("all", "x", "0")), told(grows, hold("all", "z", "1e8*t*t*z"))}) {
+    EXPECT_EQ(free.find(warning), std::string::npos) << free;
+  }
 }
 
 TEST(Ends, ThatConditionsHoldAlongTheirNormalAreWarnedOf) {

@@ -61,6 +61,14 @@ std::string cut(const std::string& name, const std::string& set, const std::stri
   return plane(name, "Symmetry Plane", set, "0 0 0", normal);
 }
 
+std::string heat(const std::string& value) {
+  return section("a", key("Type", "Prescribed Temperature") + key("Value", value));
+}
+std::string sides(const std::string& value) {
+  return section("a", key("Type", "Periodic Sides") + key("Coordinate", "z") + key("Lower", "0") +
+                          key("Upper", "6e-3") + key("Stretch", value));
+}
+
 TEST(Contradiction, OfTwoConditionsIsAnErrorThatNamesBothAndTheirPoints) {
   const std::vector<std::string> contradictions{
       velocity("a", "foot", "z", "1") + velocity("b", "side", "z", "-1"),
@@ -86,6 +94,34 @@ TEST(Contradiction, OfTwoConditionsIsAnErrorThatNamesBothAndTheirPoints) {
       "initial velocities");
 }
 
+// Pulses of a 50th to a 500th of the run, some of them at no time that the text names; jumps a 50 000th apart.
+TEST(Contradiction, OfAMomentIsAnError) {
+  const std::string pulse = "t &lt; 1e-7 ? 5 : 0";
+  const std::vector<std::string> contradictions{
+      velocity("a", "foot", "x", "0") + velocity("b", "side", "x", pulse),
+      velocity("a", "foot", "x", pulse) + cut("b", "side", "1 0 0"),
+      velocity("a", "foot", "x", "(" + pulse + ")*1e3*y") + velocity("b", "side", "x", "0"),
+      displacement("a", "foot", "z", "0") +
+          displacement("b", "side", "z", "(t > 3.14e-6 &amp;&amp; t &lt; 3.1401e-6) ? 1e-5 : 0"),
+      displacement("a", "foot", "xyz", "0") +
+          velocity("b", "side", "z", "table(t, 0, 0, 1e-6, 0, 1.01e-6, 5, 1.02e-6, 0)"),
+      velocity("a", "foot", "z", "0") + velocity("b", "side", "z", "5*exp(-((1e8*t - 217)^2))"),
+      velocity("a", "foot", "z", "t &lt; 2e-6 ? 0 : 5") + velocity("b", "side", "z", "t &lt; 2.0001e-6 ? 0 : 5"),
+      velocity("a", "foot", "z", "(1e6*t)^2 &lt; 3 ? 0 : 5") +
+          velocity("b", "side", "z", "(1e6*t)^2 &lt; 3.001 ? 0 : 5"),
+  };
+  for (const std::string& conditions : contradictions) {
+    expect_said(said_of(block(conditions)).error,
+                {"1 problem\n", "Boundary Conditions > b: contradicts 'a': both prescribe the motion of 4 points"},
+                conditions);
+  }
+  // At one of ten load steps, and no more than a millionth of one before and after it.
+  const std::string at_one = "abs(1e6*t - 2.5) &lt; 1e-6 ? 1e-5 : 0";
+  expect_said(
+      said_of(block(displacement("a", "foot", "z", "0") + displacement("b", "side", "z", at_one)), Loading::slow).error,
+      {"Boundary Conditions > b: contradicts 'a'"}, at_one);
+}
+
 // Whole faces that are held twice, in the way that decks of quarters and of bars do.
 TEST(Contradiction, IsNotInWhatAgrees) {
   const std::vector<std::string> agreeing{
@@ -96,6 +132,12 @@ TEST(Contradiction, IsNotInWhatAgrees) {
       cut("a", "foot", "0 0 1") + cut("b", "side", "1 0 0") + cut("c", "all", "0 1 0"),
       cut("a", "foot", "0 0 1") + cut("b", "foot", "0 1 1") + cut("c", "side", "0 -1 1"),
       velocity("a", "foot", "z", "1") + cut("b", "side", "0 1 1"),
+      // Jumps at one time by several rules, sums across a jump, and round-off of values near 0.
+      velocity("a", "foot", "z", "1e6*t &lt; 2.1 ? 0 : 5") + velocity("b", "side", "z", "t &lt;= 2.1e-6 ? 0 : 5"),
+      displacement("a", "foot", "z", "t &lt; 2.1e-6 ? 0 : 5*(t - 2.1e-6)") +
+          velocity("b", "side", "z", "t &lt; 2.1e-6 ? 0 : 5"),
+      velocity("a", "foot", "z", "5e6*t - 10") + velocity("b", "side", "z", "5e6*(t - 2e-6)"),
+      displacement("a", "foot", "z", "1e-5 - 1e-5*cos(1e5*t)") + displacement("b", "side", "z", "2e-5*sin(5e4*t)^2"),
   };
   for (const std::string& conditions : agreeing) {
     for (const Loading loading : {Loading::sudden, Loading::slow}) {
@@ -212,13 +254,6 @@ TEST(Values, BetweenLoadStepsAreTold) {
     EXPECT_EQ(warnings.find("in the middle of any load step") != std::string::npos, told) << value << warnings;
   }
   // Temperatures and the distance of sides count from those at the start.
-  const auto heat = [](const std::string& value) {
-    return section("a", key("Type", "Prescribed Temperature") + key("Value", value));
-  };
-  const auto sides = [](const std::string& value) {
-    return section("a", key("Type", "Periodic Sides") + key("Coordinate", "z") + key("Lower", "0") +
-                            key("Upper", "6e-3") + key("Stretch", value));
-  };
   const std::string wave = "sin(3.14159265358979e6*2*t)", slow = "sin(1e6*t)";
   for (const auto& condition : {heat("293 + 50*" + wave), sides("1 + 1e-3*" + wave)}) {
     expect_said(said_of(block(condition), Loading::slow).warnings, {"changes by", "between two load steps"}, condition);
@@ -235,10 +270,35 @@ TEST(Displacement, ThatJumpsIsTold) {
   const std::string tool = section(
       "roll", key("Type", "Rigid Plane") + key("Point", "0 0 -1e-3") + key("Normal", "0 0 1") + key("Travel Z", jump));
   expect_said(said_of(block(tool)).warnings, {"WARNING: Boundary Conditions > roll > Travel Z: jumps"}, "a tool");
-  // Steep, but without a jump; no displacement.
+  // Steps are some 0.2 µs long: this is done within a tenth of one. In the longer run it is so between two samples.
+  const std::string ramp = "1e-4*min(max(t/2e-8 - 100.05, 0), 1)";
+  for (const char* end : {"5e-6", "5e-3"}) {
+    Parts parts = block(displacement("a", "foot", "z", ramp));
+    parts.times = key("Final Time", end);
+    expect_said(said_of(parts).warnings,
+                {"WARNING: Boundary Conditions > a > Value: jumps by 0.0001 m, 0.1 spacings, at t = 2.0"}, end);
+  }
+  // Steady, though some hundredths of a spacing in each step; over some steps; no displacement.
   for (const std::string& smooth :
-       {displacement("a", "foot", "z", "1e-4*erf(1e7*t)"), velocity("a", "foot", "z", jump)}) {
-    EXPECT_EQ(said_of(block(smooth)).warnings.find("jumps"), std::string::npos) << smooth;
+       {displacement("a", "foot", "z", "200*t"), displacement("a", "foot", "z", "200*max(t - 2e-6, 0)"),
+        displacement("a", "foot", "z", "1e-4*erf(1e6*t)"), velocity("a", "foot", "z", jump)}) {
+    EXPECT_EQ(said_of(block(smooth)).warnings.find("so suddenly"), std::string::npos) << smooth;
+  }
+}
+
+TEST(Strains, ThatJumpAreTold) {
+  const auto said = [](const std::string& condition) {
+    Parts parts = block(condition);
+    parts.materials = copper(key("Yield Stress", "50e6") + key("Thermal Expansion Coefficient", "1e-5"));
+    return said_of(parts).warnings;
+  };
+  expect_said(said(heat("293 + (t &gt; 2e-6)*100")),
+              {"a > Value: jumps by 100 K, a strain of 0.001, at t = 2e-06 s: within one step"}, "heat");
+  expect_said(said(sides("1 + (t &gt; 2e-6)*0.01")),
+              {"a > Stretch: jumps by 0.01, the distance of the sides by 6e-05 m, 0.06 spacings, at t = 2e-06 s"},
+              "sides");
+  for (const std::string& slow : {heat("293 + 2e8*t"), heat("293 + (t &gt; 2e-6)*5"), sides("1 + 2e4*t")}) {
+    EXPECT_EQ(said(slow).find("so suddenly"), std::string::npos) << slow;
   }
 }
 

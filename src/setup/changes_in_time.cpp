@@ -1,0 +1,136 @@
+#include "setup/changes_in_time.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "topology/bounding_box.hpp"
+
+namespace strut {
+
+namespace {
+
+constexpr int halvings = 40;  // bisections between two samples that distinguish a jump from a steep slope
+
+// The jump between `from` and `to`, by halving the interval where it changes most: a steep slope leaves no jump. Or
+// what it changes in the part of this length, s, where it changes most.
+Jump jump_between(const OfTime& of_time, double from, double to, double length = 0) {
+  for (int n = 0; n < halvings && to - from > length; ++n) {
+    const double middle = 0.5 * (from + to);
+    if (std::abs(of_time(middle) - of_time(from)) > std::abs(of_time(to) - of_time(middle))) {
+      to = middle;
+    } else {
+      from = middle;
+    }
+  }
+  return {to, std::abs(of_time(to) - of_time(from))};
+}
+
+// Calls visit(change, from, to) between each two samples in time.
+template <class Visit>
+void for_each_change(const OfTime& of_time, double start, double end, const Visit& visit) {
+  for (int k = 0; k < looks_in_a_run; ++k) {
+    const double a = start + (end - start) * k / looks_in_a_run, b = start + (end - start) * (k + 1) / looks_in_a_run;
+    visit(std::abs(of_time(b) - of_time(a)), a, b);
+  }
+}
+
+// The change of a step that begins at `from`, if those before and after it add less than a third of it.
+double change_at_once(const OfTime& of_time, double from, const Steps& steps) {
+  const double step = steps.longest, to = from + step;
+  const double change = std::abs(of_time(to) - of_time(from));
+  const double before = std::abs(of_time(from) - of_time(std::max(steps.start, from - step)));
+  const double after = std::abs(of_time(to + step) - of_time(to));
+  return 3 * (before + after) < change ? change : 0;
+}
+
+// The numbers of a text, those of tables, too.
+std::vector<double> numbers_in(const std::string& text) {
+  std::vector<double> numbers;
+  const char *here = text.data(), *end = here + text.size();
+  while (here != end) {
+    double number = 0;
+    const bool begins = std::isdigit(static_cast<unsigned char>(*here)) != 0 || *here == '.';
+    const auto [rest, failure] = std::from_chars(here, end, number);
+    const bool is_number = begins && failure == std::errc();
+    if (is_number) numbers.push_back(number);
+    here = is_number ? rest : here + 1;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<double> thinned(const std::vector<double>& times, int most) {
+  const int stride = (static_cast<int>(times.size()) + most - 1) / most;
+  std::vector<double> some;
+  for (std::size_t n = 0; n < times.size(); n += stride) some.push_back(times[n]);
+  return some;
+}
+
+Jump largest_jump(const OfTime& of_time, const Steps& steps, double least) {
+  const double apart = (steps.end - steps.start) / looks_in_a_run;
+  Jump worst;
+  for (int k = 0; k < looks_in_a_run; ++k) {
+    const double a = steps.start + k * apart, b = a + std::max(apart, steps.longest);
+    if (!(std::abs(of_time(b) - of_time(a)) > 0.5 * least)) continue;  // a half, if it goes on beyond b
+    const double near = jump_between(of_time, a, b, steps.longest).time;
+    for (const double part : {1.0, 0.75, 0.5, 0.25, 0.0}) {
+      const double from = std::max(steps.start, near - part * steps.longest);
+      const double change = change_at_once(of_time, from, steps);
+      if (!(change > std::max(least, worst.length))) continue;
+      const double time = jump_between(of_time, from, from + steps.longest).time;
+      if (time <= steps.end) worst = {time, change};
+    }
+  }
+  return worst;
+}
+
+std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end) {
+  double largest = 0;
+  for (int k = 0; k <= looks_in_a_run; ++k)
+    largest = std::max(largest, std::abs(of_time(start + (end - start) * k / looks_in_a_run)));
+  std::vector<Jump> jumps;
+  for_each_change(of_time, start, end, [&](double change, double a, double b) {
+    if (!(change > 0.1 * largest)) return;
+    const Jump jump = jump_between(of_time, a, b);
+    if (jump.length > 0.1 * largest) jumps.push_back(jump);
+  });
+  return jumps;
+}
+
+Where where(const std::vector<int>& points, const Body& body) {
+  Where all;
+  for (const int i : points) {
+    all.box.extend(body.domain.reference(i));
+    all.spacing = std::min(all.spacing, body.domain.cloud.spacings[i]);
+  }
+  all.box = common_box(all.box, body.domain.communicator);
+  all.spacing = body.domain.communicator.min(all.spacing);
+  return all;
+}
+
+void at_corners(const Function& value, const Where& where, const std::function<void(const OfTime&)>& visit) {
+  for (int corner = 0; corner < (value.depends_on_place() ? 8 : 1); ++corner) {
+    const Vector X = where.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+    visit([&](double t) { return value.evaluate(X[0], X[1], X[2], t); });
+  }
+}
+
+std::vector<double> changes_of(const Function& value, const Where& where, double start, double end) {
+  if (!value.depends_on_time()) return {};
+  std::vector<double> times = numbers_in(value.text());
+  at_corners(value, where, [&](const OfTime& of_time) {
+    for (const Jump& jump : jumps_of(of_time, start, end)) times.push_back(jump.time);
+  });
+  std::erase_if(times, [&](double t) { return !(t > start && t < end); });
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  for (std::size_t n = 1, count = times.size(); n < count; ++n) times.push_back(0.5 * (times[n - 1] + times[n]));
+  std::ranges::sort(times);
+  return times;
+}
+
+}  // namespace strut

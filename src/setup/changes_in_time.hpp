@@ -1,0 +1,53 @@
+// When and where values of a deck change: their jumps, and the times that their texts name.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "base/math/function.hpp"
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+using OfTime = std::function<double(double)>;
+
+constexpr int looks_in_a_run = 1000;  // samples of a function of time
+
+struct Jump {
+  double time = 0, length = 0;  // s, and m or the unit of a load
+};
+
+// The steps of a run.
+struct Steps {
+  double start, end, longest;  // s
+};
+
+// The largest change of `of_time` by more than `least` that is done within one step: a steady motion goes on in the
+// steps before and after, which here add less than a third of it. Its length is 0 if there is none.
+Jump largest_jump(const OfTime& of_time, const Steps& steps, double least);
+
+// The jumps of `of_time` by a tenth of its largest value or more, in order.
+std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end);
+
+// The box of the points of a condition over all ranks, and their least spacing, m.
+struct Where {
+  Eigen::AlignedBox3d box;
+  double spacing = std::numeric_limits<double>::infinity();
+};
+
+// Collective. `points`: owned.
+Where where(const std::vector<int>& points, const Body& body);
+
+// Calls visit(of_time) with the value as a function of time at each corner of the box, or once if it is the same there.
+void at_corners(const Function& value, const Where& where, const std::function<void(const OfTime&)>& visit);
+
+// Times in a run, s, in order, at which the value may turn or jump: its jumps, and the numbers of its text, among
+// which are the places of its tables, and the middles between these.
+std::vector<double> changes_of(const Function& value, const Where& where, double start, double end);
+
+// Every second one and so on, if there are more than `most`.
+std::vector<double> thinned(const std::vector<double>& times, int most);
+
+}  // namespace strut
