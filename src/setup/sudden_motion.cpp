@@ -81,23 +81,30 @@ std::vector<Function> straining_values(const deck::Condition& condition) {
   return {};
 }
 
-// The largest time that a wave takes for one spacing of a block, s: no step is longer.
-double longest_step(const Body& body) {
-  double longest = 0;
+// The time that a wave takes for one spacing of each block, s. No step is longer than the largest, none of a point than
+// that of its block; and without substeps none than the smallest.
+std::vector<double> wave_times(const Body& body) {
+  std::vector<double> times;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const BlockMaterial& material = body.blocks[b].material;
     const double modulus = materials::moduli_of(material.law).longitudinal();
-    longest = std::max(longest, body.domain.blocks[b].spacing * std::sqrt(material.density / modulus));
+    times.push_back(body.domain.blocks[b].spacing * std::sqrt(material.density / modulus));
   }
-  return longest;
+  return times;
+}
+
+// The largest of these numbers of blocks among the points over all ranks.
+double largest_at(const std::vector<double>& of_blocks, const std::vector<int>& points, const Body& body) {
+  double largest = 0;
+  for (const int i : points) largest = std::max(largest, of_blocks[body.domain.cloud.blocks[i]]);
+  return body.domain.communicator.max(largest);
 }
 
 // The largest coefficient of thermal expansion of the points over all ranks, 1/K.
 double expansion_of(const std::vector<int>& points, const Body& body) {
-  double largest = 0;
-  for (const int i : points)
-    largest = std::max(largest, body.blocks[body.domain.cloud.blocks[i]].material.thermal_expansion);
-  return body.domain.communicator.max(largest);
+  std::vector<double> of_blocks;
+  for (const MaterialBlock& block : body.blocks) of_blocks.push_back(block.material.thermal_expansion);
+  return largest_at(of_blocks, points, body);
 }
 
 }  // namespace
@@ -142,7 +149,7 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
 
 std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
   if (deck.solver.quasi_static) return "";
-  const Steps steps{deck.solver.initial_time, deck.solver.final_time, longest_step(body)};
+  const std::vector<double> times = wave_times(body);
   std::ostringstream text;
   for (std::size_t c = 0; c < points.size(); ++c) {
     const deck::Condition& condition = deck.conditions[c];
@@ -150,6 +157,8 @@ std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& poi
     std::ranges::copy(straining_values(condition), std::back_inserter(values));
     if (std::ranges::none_of(values, &Function::depends_on_time)) continue;
     const Where there = where(points[c], body);
+    const double step = deck.solver.subcycling ? largest_at(times, points[c], body) : std::ranges::min(times);
+    const Steps steps{deck.solver.initial_time, deck.solver.final_time, step};
     const auto* sides = std::get_if<PeriodicSides>(&condition.kind);
     const bool heats = std::holds_alternative<PrescribedTemperature>(condition.kind);
     // Metres, or the strain of a temperature, by a unit of the value; and how much of it is told.
@@ -171,7 +180,7 @@ std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& poi
 std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
   if (deck.solver.quasi_static) return "";
   constexpr double told = 0.005;  // of the impulse
-  const double step = longest_step(body);
+  const double step = std::ranges::max(wave_times(body));
   std::ostringstream text;
   text.precision(2);
   for (std::size_t c = 0; c < points.size(); ++c) {
