@@ -42,7 +42,7 @@ struct Pairs {
   std::vector<double> limits;         // of partners: they touch at this distance at most, m (breaks.hpp); empty: none
   bool one_body = false;              // as in BlockPair
   std::optional<Halo> halo;           // of sites; none if no rank has a partner on another rank
-  // Of sites: along each axis, the number of periods by which an image is above its original; empty without periods.
+  // For each site and axis, the number of periods by which an image is above its original; empty without periods.
   std::vector<Vector> above = {};
   Vector friction_through = Vector::Zero();  // N, of this rank's last friction through the sides across each axis
 

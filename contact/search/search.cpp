@@ -207,7 +207,7 @@ Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_bod
   return pairs;
 }
 
-// Of all sites, along each axis.
+// For each site and axis, the number of periods by which an image is above its original.
 std::vector<Vector> periods_above(const Pairs& pairs, const Domain& domain) {
   std::vector<Vector> above;
   if (domain.periods.empty()) return above;

@@ -8,7 +8,6 @@
 #include "fracture/broken_family.hpp"
 #include "fracture/critical_stretch.hpp"
 #include "fracture/work_balance.hpp"
-#include "mechanics/hindered_breaks.hpp"
 #include "mechanics/kernels/bonds.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
@@ -146,8 +145,6 @@ void Fracture::start_step(const Body& body, std::span<const Vector> velocities, 
   if (is_looked_at_) keep_start(body);
   if (energies_.any()) energies_.take_expansions(body);
 }
-
-bool Fracture::breaks_at_rest(const Body& body) const { return hindrance_of_breaks(body).empty(); }
 
 void Fracture::start_rest(const Body& body) {
   look_at_all(body);

@@ -47,10 +47,9 @@ class Fracture : public BondBreaking {
   void count_springs(Body& body) override;
   void finish_step() override { is_looked_at_ = false; }
 
-  // For equilibria: true if the bonds of all blocks that may break do so there, too.
-  bool breaks_at_rest(const Body& body) const;
-  // Call it in place of start_step where no point moves, and before a stress update at the same positions: the bonds
-  // that are beyond their limit break in it, and D is the energy that the body then no longer stores.
+  // For equilibria. Call it in place of start_step where no point moves, and before a stress update at the same
+  // positions: the bonds that are beyond their limit break in it, and D is the energy that the body then no longer
+  // stores.
   void start_rest(const Body& body);
   // Collective. The largest stretch of a bond over the one at which it breaks, at the present positions.
   double largest_stretch(const Body& body) const;

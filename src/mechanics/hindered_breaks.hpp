@@ -1,4 +1,4 @@
-// What keeps bonds from breaking in equilibria.
+// The reasons why bonds do not break in equilibria.
 #pragma once
 
 #include <string>
@@ -7,10 +7,11 @@
 
 namespace strut {
 
-// True if the bonds of a block could break there.
+// True if bonds of the block can break in equilibria.
 bool breaks_at_rest(const MaterialBlock& block);
 
-// What forbids it to them in this body, but for contact and tools: "Symmetry Plane"; empty if nothing does.
+// The first reason in this body, such as "Symmetry Plane"; empty if there is none. Contact and tools are not
+// considered.
 std::string hindrance_of_breaks(const Body& body);
 
 }  // namespace strut

@@ -9,7 +9,7 @@ namespace strut {
 
 namespace {
 
-// Of all sites; 0 for those that are no images.
+// For each site; 0 for sites that are no images.
 std::vector<int> periods_above(const Domain& domain, const Period& period) {
   std::vector<int> above(domain.sites.size(), 0);
   for (const ImagePoint& image : domain.halo.images()) above[image.ghost] = strut::periods_above(image.by, period);

@@ -28,15 +28,6 @@ Jump jump_between(const OfTime& of_time, double from, double to, double length =
   return {to, std::abs(of_time(to) - of_time(from))};
 }
 
-// Calls visit(change, from, to) between each two samples in time.
-template <class Visit>
-void for_each_change(const OfTime& of_time, double start, double end, const Visit& visit) {
-  for (int k = 0; k < looks_in_a_run; ++k) {
-    const double a = start + (end - start) * k / looks_in_a_run, b = start + (end - start) * (k + 1) / looks_in_a_run;
-    visit(std::abs(of_time(b) - of_time(a)), a, b);
-  }
-}
-
 // The change of a step that begins at `from`, if those before and after it add less than a third of it.
 double change_at_once(const OfTime& of_time, double from, const Steps& steps) {
   const double step = steps.longest, to = from + step;
@@ -89,15 +80,20 @@ Jump largest_jump(const OfTime& of_time, const Steps& steps, double least) {
 }
 
 std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end) {
+  const auto time = [&](int k) { return start + (end - start) * k / looks_in_a_run; };
+  std::vector<double> samples;
   double largest = 0;
-  for (int k = 0; k <= looks_in_a_run; ++k)
-    largest = std::max(largest, std::abs(of_time(start + (end - start) * k / looks_in_a_run)));
+  for (int k = 0; k <= looks_in_a_run; ++k) {
+    samples.push_back(of_time(time(k)));
+    largest = std::max(largest, std::abs(samples.back()));
+  }
   std::vector<Jump> jumps;
-  for_each_change(of_time, start, end, [&](double change, double a, double b) {
-    if (!(change > 0.1 * largest)) return;
-    const Jump jump = jump_between(of_time, a, b);
+  if (std::abs(samples.front()) > 0.1 * largest) jumps.push_back({start, std::abs(samples.front())});
+  for (int k = 0; k < looks_in_a_run; ++k) {
+    if (!(std::abs(samples[k + 1] - samples[k]) > 0.1 * largest)) continue;
+    const Jump jump = jump_between(of_time, time(k), time(k + 1));
     if (jump.length > 0.1 * largest) jumps.push_back(jump);
-  });
+  }
   return jumps;
 }
 

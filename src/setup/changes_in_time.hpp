@@ -28,7 +28,7 @@ struct Steps {
 // steps before and after, which here add less than a third of it. Its length is 0 if there is none.
 Jump largest_jump(const OfTime& of_time, const Steps& steps, double least);
 
-// The jumps of `of_time` by a tenth of its largest value or more, in order.
+// The jumps of `of_time`, which is 0 before the start, by a tenth of its largest value or more, in order.
 std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end);
 
 // The box of the points of a condition over all ranks, and their least spacing, m.

@@ -207,6 +207,8 @@ struct Looks {
 // Collective.
 Looks looks_at(const SharedPoints& shared, const deck::Deck& deck, const deck::Solver& steps,
                const PointsOfConditions& points, const Body& body) {
+  const Communicator& communicator = body.domain.communicator;
+  if (communicator.sum(static_cast<double>(shared.size())) == 0) return {};  // nothing is compared
   std::vector<double> changes;
   for (std::size_t c = 0; c < points.size(); ++c) {
     const auto* motion = std::get_if<PrescribedMotion>(&deck.conditions[c].kind);
@@ -218,7 +220,7 @@ Looks looks_at(const SharedPoints& shared, const deck::Deck& deck, const deck::S
   std::ranges::sort(changes);
   double count = 0;
   for (const auto& [i, holds] : shared) count += depends_on_place(holds) ? 1 : 0;
-  count = std::max(1.0, body.domain.communicator.sum(count));
+  count = std::max(1.0, communicator.sum(count));
   const double looks = std::clamp<double>(most_looks_at_points / count, fewest_looks, looks_in_a_run);
   return {times_of(steps, changes, std::max<int>(looks_in_a_run, static_cast<int>(changes.size()))),
           times_of(steps, changes, static_cast<int>(looks))};

@@ -24,11 +24,7 @@ constexpr double sudden_strain = 1e-4;
 
 // The least time between two jumps of `of_time` by a tenth of its largest value or more, s; infinite without two.
 double shortest_pulse(const OfTime& of_time, double start, double end) {
-  double largest = 0;
-  for (int k = 0; k <= looks_in_a_run; ++k)
-    largest = std::max(largest, std::abs(of_time(start + (end - start) * k / looks_in_a_run)));
   double last = -std::numeric_limits<double>::infinity(), shortest = -last;
-  if (std::abs(of_time(start)) > 0.1 * largest) last = start;
   for (const Jump& jump : jumps_of(of_time, start, end)) {
     shortest = std::min(shortest, jump.time - last);
     last = jump.time;

@@ -10,6 +10,7 @@
 #include "base/timing.hpp"
 #include "integrators/period_work.hpp"
 #include "mechanics/formulation/flow.hpp"
+#include "mechanics/hindered_breaks.hpp"
 #include "mechanics/mirror_forces.hpp"
 #include "mechanics/serialize.hpp"
 
@@ -277,7 +278,7 @@ void Equilibrium::begin_flow_of_cells() {
 
 // The deck's check (deck/sections/inertia.cpp) refuses the others, unless explicit steps follow, in which they break.
 bool Equilibrium::may_break() const {
-  return fracture_ && fracture_->breaks_at_rest(body_) && !tools_.any() && !contact_.any();
+  return fracture_ && hindrance_of_breaks(body_).empty() && !tools_.any() && !contact_.any();
 }
 
 std::int64_t Equilibrium::break_bonds() {

@@ -473,7 +473,7 @@ TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
               {"16 points that 'foot' holds", "what the tool loses to them depends on the time step"});
 }
 
-// What all points hold against the sides is taken by the bonds across them, several times what a free body bears.
+// If conditions hold all points, the bonds across the sides take the whole stretch: several times that of a free body.
 TEST(Stretches, ThatHeldPointsCannotFollowAreWarnedOf) {
   const auto told = [](const std::string& stretch, const std::string& condition) {
     Parts parts;
