@@ -48,7 +48,7 @@ constexpr double sharpest = 0.5;       // largest mean curvature, that of a stru
 constexpr double planes_within = 1.8;  // radius in which a point uses surface planes
 constexpr double deepest = 0.8;        // largest depth of a point without surface of its own that still touches
 
-// In units of the reach of ρ: distance of the other body's points in front of the surface when they touch; radius in
+// In spacings: distance of the other body's points in front of the surface when they touch; radius in
 // which a piece of surface corrects volumes.
 constexpr double before = 0.4, tells = 2;
 constexpr double least_missing = 0.7, most_missing = 4;  // beyond them the body goes on in front, or behind a plane

@@ -35,7 +35,7 @@ struct SurfacePoint {
   bool is_at_surface = false;
 };
 
-// A point of a body whose bonds have broken. What it sees at once when they break gives no pressure, since that would
+// A point of a body whose bonds have broken. Material seen at the break gives no pressure, since that would
 // be energy out of nothing; `excess` falls as these points move apart.
 struct BrokenPoint {
   double excess = 0;        // added to the threshold
@@ -61,8 +61,8 @@ class Surfaces {
   void take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& before, const BrokenCounts& now,
             Pairs& pairs);
 
-  // As in forces.hpp for pairs of points. `penetration`: the overlap in spacings of the point. `is_trial`: of an
-  // equilibrium, to which the points may not go.
+  // As in forces.hpp for pairs of points. `penetration`: the overlap in spacings of the point. `is_trial`: a
+  // trial of an equilibrium, perhaps discarded.
   ForceResult add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, bool is_trial, Pairs& pairs,
                                 std::vector<Vector>& force_density);
   void for_each_normal_force(const Pairs& pairs, const std::function<void(std::size_t, Vector)>& visit) const;

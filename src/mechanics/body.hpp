@@ -64,7 +64,7 @@ struct PointFields {
   PointField<double> damage = fields.of_points<double>(
       {.name = "damage",
        .unit = "1",
-       .meaning = "1 − the volume of the points that are still bonded to it / of all that were",
+       .meaning = "1 − volume of the points still bonded to this one / of all at first",
        .kept = true,
        .variable = "Damage"},
       When::if_used);

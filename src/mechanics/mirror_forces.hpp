@@ -11,7 +11,7 @@ namespace strut {
 // change of the bonds' energy with the period. When to call it: as mirror_forces.
 std::vector<Vector> period_forces(const Body& body, int level, const std::vector<int>* moved);
 
-// The sides of a domain: its mirrors, or its periods. Their number, and the index of one's condition in the deck.
+// Number of a domain's sides (mirrors, or periods), and the index of a side's condition in the deck.
 inline std::size_t side_count(const Domain& domain) { return domain.mirrors.size() + domain.periods.size(); }
 inline int number_of_side(const Domain& domain, std::size_t side) {
   return domain.periods.empty() ? domain.mirrors[side].number : domain.periods[side].number;

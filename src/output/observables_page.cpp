@@ -10,6 +10,7 @@ Generated from `src/output/observables.cpp`, `src/mechanics/body.hpp` and `mater
 
 The section `Output` of a deck writes these fields of the points. The section `History` writes, in columns:
 
+- always `Time`, `Step_Size`; `Kinetic_Energy`, `Elastic_Energy`, `Stabilization_Energy`, `Tool_Kinetic_Energy`; so far, `Plastic_Work`, `Fracture_Energy`, `Heat`, and the work `Contact_Work`, `Tool_Work`, `External_Work` (of other conditions); `Balance_Error` ([definition](../docs/theory.md#central-differences-and-the-ledger)); `Momentum_X`, `_Y`, `_Z`.
 - `Max_Displacement`, `Min_Pressure`: extreme over all points; of several components, of the root of the sum of their squares.
 - `Max_Displacement(foam)`: extreme over the points of a node set or block. `Max_Displacement_Z`, `Min_Cauchy_Stress_ZZ`: extreme of a component.
 - `Mean_Displacement_Z(top)`, `Sum_Force_Z(top)`: mean, weighted by reference volumes, and sum over the points.

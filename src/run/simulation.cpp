@@ -46,20 +46,19 @@ Observer observer(const deck::Deck& deck, const Communicator& communicator, cons
   return observer;
 }
 
-// A run of two solvers that its Wall Time has ended left no checkpoint: another one would come no further, and its
-// files would be lost.
-void check_wall_time(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
-  if (!deck.next_solver || !deck.solver.wall_time || is_over(deck, communicator)) return;
+// A run of two solvers that ended early left no checkpoint: in a chain of jobs each one would come no further, and would
+// replace the files of the one before.
+void check_two_solvers(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
+  if (!deck.next_solver || is_over(deck, communicator)) return;
   const auto is_there = [&](const std::filesystem::path& file) {
     return communicator.max(communicator.rank() == 0 && std::filesystem::exists(file) ? 1.0 : 0.0) > 0;
   };
   for (const auto& file :
        {deck.output.enabled ? deck.output.file : "", deck.history.has_file() ? deck.history.file : ""}) {
     if (file.empty() || !is_there(file)) continue;
-    problems.add("Solver > Wall Time",
-                 "ends a run of two solvers without a checkpoint: there is none to go on from, and " + file.string() +
-                     " would be replaced; expected a longer time, or none, and 'strut " + deck.file.string() +
-                     "', which begins anew");
+    problems.add("Solver 2", "a run of two solvers writes no checkpoint: there is none to go on from, and " +
+                                 file.string() + " would be replaced; expected 'strut " + deck.file.string() +
+                                 "', which begins anew, with time enough for both solvers");
   }
 }
 
@@ -69,7 +68,7 @@ bool look_at_checkpoint(const deck::Deck& deck, Start start, const Communicator&
                         deck::Problems& problems) {
   const bool is_there = checkpoint_exists(deck, communicator);
   check_resumption(deck, is_there, start == Start::anew, problems);
-  if (!is_there && start == Start::continued) check_wall_time(deck, communicator, problems);
+  if (!is_there && start == Start::continued) check_two_solvers(deck, communicator, problems);
   if (!problems.empty()) return false;
   if (is_there && start == Start::continued) return check_changes(deck, communicator);
   if (!is_there && (start == Start::continued || deck.restart.resumes))

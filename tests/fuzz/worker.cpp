@@ -167,7 +167,6 @@ void work(const Options& options, const fs::path& folder, std::uint64_t first, s
   static char* names[] = {name, nullptr};
   int count = 1;
   char** words = names;
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);  // no helper process that would outlive this one
   ask_for_leaks(false);
   started = new Runtime(count, words);
   ask_for_leaks(true);

@@ -7,8 +7,8 @@ namespace {
 const RealKey radius({.name = "Contact Radius",
                       .unit = "m",
                       .range = positive,
-                      .meaning = "r_c: points closer than this repel each other; 0.9 of the initial distance for pairs "
-                                 "closer than r_c/0.9 at the start. A good choice is one spacing."});
+                      .meaning = "r_c: points closer than this repel each other, at most the initial distance of a pair, "
+                                 "within a body 0.9 of it. A good choice is one spacing."});
 
 const RealKey friction(
     {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb friction."});

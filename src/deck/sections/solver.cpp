@@ -31,7 +31,7 @@ const RealKey tolerance({.name = "Tolerance",
 const IntegerKey most_iterations({.name = "Maximum Solver Iterations",
                                   .range = {.low = 1},
                                   .fallback = "20",
-                                  .meaning = "Newton iterations of a load step before it is halved."});
+                                  .meaning = "Newton iterations of a load step before damped motion takes over."});
 
 Section quasi_static_section() {
   return {.name = "QuasiStatic",
@@ -172,7 +172,7 @@ Section next_solver_section() {
   section.meaning =
       "Explicit steps after the equilibria of Solver: a body is loaded slowly, then struck. Conditions that need "
       "inertia (initial velocities, tools with a mass, non-reflecting ends) begin here; bonds that hold in equilibria "
-      "may break.";
+      "may break. Initial Time is Solver's Final Time; Wall Time, QuasiStatic and mass scaling are errors here.";
   section.keys.push_back(keeps_velocities);
   return section;
 }
