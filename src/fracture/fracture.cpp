@@ -10,7 +10,7 @@
 #include "fracture/work_balance.hpp"
 #include "mechanics/kernels/bonds.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
-#include "mechanics/off_stencil.hpp"
+#include "mechanics/make_body.hpp"
 #include "mechanics/reflected.hpp"
 #include "topology/parallel_for.hpp"
 

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "fracture/separation.hpp"
-#include "mechanics/formulation/lattice_cell.hpp"
+#include "mechanics/formulation/cell_fit.hpp"
 #include "mechanics/kernels/bonds.hpp"
 
 namespace strut {
