@@ -1,10 +1,10 @@
-#include "contact/undeclared.hpp"
-
+// Interpenetration of material without a declared contact: of points at surfaces that have come too close.
 #include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "contact/interpenetration.hpp"
 #include "contact/own_surface.hpp"
 #include "topology/bounding_box.hpp"
 #include "topology/nearby_ranks.hpp"
@@ -133,9 +133,9 @@ bool hardly_moved(const Domain& domain) {
 }
 
 // Counts the passed points of this rank, which are the first `mine` of `all`; `places`: positions of all.
-Undeclared passed_points(const Domain& domain, const Uncovered& uncovered, std::size_t mine,
-                         const std::vector<Seen>& all, const std::vector<Vector>& places, double reach) {
-  Undeclared found;
+Interpenetration passed_points(const Domain& domain, const Uncovered& uncovered, std::size_t mine,
+                               const std::vector<Seen>& all, const std::vector<Vector>& places, double reach) {
+  Interpenetration found;
   if (mine == 0) return found;
   const CellGrid grid(places, reach);
   for (std::size_t k = 0; k < mine; ++k) {
@@ -156,7 +156,7 @@ Undeclared passed_points(const Domain& domain, const Uncovered& uncovered, std::
 
 }  // namespace
 
-std::optional<Undeclared> find_undeclared(const Domain& domain, const Contact& contact) {
+std::optional<Interpenetration> find_undeclared(const Domain& domain, const Contact& contact) {
   const Uncovered uncovered(domain, contact);
   if (!uncovered.any() || hardly_moved(domain)) return std::nullopt;
   std::vector<Seen> all = at_surfaces(domain);
@@ -171,7 +171,7 @@ std::optional<Undeclared> find_undeclared(const Domain& domain, const Contact& c
   for (const Seen& image : images_of(domain, all, reach)) all.push_back(image), places.push_back(place_of(image));
   const auto others = from_nearby_ranks(box, places, std::span<const Seen>(all), reach, ranks);
   for (const Seen& point : others) all.push_back(point), places.push_back(place_of(point));
-  Undeclared found = passed_points(domain, uncovered, mine, all, places, reach);
+  Interpenetration found = passed_points(domain, uncovered, mine, all, places, reach);
   found.points = ranks.sum(found.points);
   if (found.points == 0) return std::nullopt;
   const double teller = ranks.max(found.point >= 0 ? ranks.rank() : -1.0);
