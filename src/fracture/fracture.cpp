@@ -6,7 +6,7 @@
 
 #include "base/timing.hpp"
 #include "fracture/broken_family.hpp"
-#include "fracture/critical_stretch.hpp"
+#include "fracture/separation.hpp"
 #include "fracture/work_balance.hpp"
 #include "mechanics/kernels/bonds.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
