@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/timing.hpp"
-#include "contact/largest_eigenvalue.hpp"
 #include "contact/laws/contact_law.hpp"
 #include "contact/search/search.hpp"
 

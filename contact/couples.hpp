@@ -1,14 +1,45 @@
 // Friction acts off the points: midway between two points, or at the surfaces of bodies. Its couple about a point acts
-// on the neighborhood of the point (its family and itself, patch.hpp); without this couple bodies would rotate.
+// on the neighborhood of the point (its family and itself); without this couple bodies would rotate.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "contact/patch.hpp"
 #include "contact/search/pairs.hpp"
 
 namespace strut::contact {
+
+// A patch: a piece of a body that takes friction as a whole. Friction acts at one position on both bodies, else it
+// would rotate them. Off its points a patch moves like a rigid body with the mean motion of its points, and a force
+// there acts as a force at its center and a couple. Motion and force are transposes of each other, so friction does no
+// work on bodies that stick to each other.
+struct Patch {
+  double weight = 0;                   // of all its points
+  Vector middle = Vector::Zero();      // m
+  Tensor per_couple = Tensor::Zero();  // rotation θ per couple: points get the forces weight θ × (position − middle)
+  double smallest = 0;                 // smallest moment of its points about any axis, weight m²
+  bool turns = false;                  // about any axis: its points are not in one line
+  Vector row = Vector::Zero();         // unit vector along the line; zero if the patch turns, or is like one point
+};
+
+// Sums over the points of a patch; positions are relative to one near them, m.
+class PatchSums {
+ public:
+  void add(double weight, const Vector& place);
+  Vector middle() const { return first_ / weight_; }  // some weight must have been added
+
+  // `arm`: distance from the center at which friction acts, m. The patch does not turn about an axis whose moment is so
+  // small compared with it that a force there would meet almost no inertia.
+  Patch patch(double arm) const;
+
+ private:
+  double weight_ = 0;
+  Vector first_ = Vector::Zero();
+  Tensor second_ = Tensor::Zero();
+};
+
+// The part of a force at `place` whose couple a patch can take.
+Vector bearable(const Patch& patch, const Vector& place, const Vector& force);
 
 class Couples {
  public:

@@ -2,11 +2,11 @@
 // number of ranks, and forces are equal and opposite to the last bit at the two ends of a pair.
 #include "contact/forces.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "contact/breaks.hpp"
-#include "contact/largest_eigenvalue.hpp"
 #include "contact/laws/contact_law.hpp"
 
 namespace strut::contact {
@@ -281,6 +281,11 @@ void add_stiffness(const PairLaw& law, Pairs& pairs, std::span<const Vector> fie
     const double approach = n.dot(values[k] - values[partner]);
     result[pairs.owned[k]] += stiffness * approach * n;
   });
+}
+
+double largest_eigenvalue(const Tensor& springs, double floor) {
+  if (!(springs.trace() > floor)) return 0;
+  return Eigen::SelfAdjointEigenSolver<Tensor>(springs, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
 }  // namespace strut::contact

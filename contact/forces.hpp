@@ -66,4 +66,8 @@ void add_stiffness(const PairLaw& law, Pairs& pairs, std::span<const Vector> fie
 // Diagonal blocks of that stiffness, for each owned point, N/m.
 void add_springs(const PairLaw& law, const Pairs& pairs, std::span<Tensor> springs);
 
+// The bound of ω² of a point held by springs: largest eigenvalue of a positive semidefinite tensor; 0 if its trace, an
+// upper bound, is at most `floor`.
+double largest_eigenvalue(const Tensor& springs, double floor);
+
 }  // namespace strut::contact

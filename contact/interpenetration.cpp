@@ -44,13 +44,14 @@ std::vector<Extent> extents_of_blocks(const Domain& domain, Place place) {
 // A point, in the form in which it is sent to other ranks.
 struct Seen {
   double place[3], volume;
+  Vector at() const { return {place[0], place[1], place[2]}; }
 };
 
 // The material of one body, for the smoothed volume fraction.
 class Material {
  public:
   Material(const std::vector<Seen>& points, double spacing, PointsAt at)
-      : spacing_(spacing), at_(at), smoothing_(reach()), places_(places(points)), grid_(places_, reach()) {
+      : spacing_(spacing), at_(at), smoothing_(reach()), places_(places_of(points)), grid_(places_, reach()) {
     for (const Seen& point : points) volumes_.push_back(point.volume);
   }
 
@@ -69,11 +70,6 @@ class Material {
 
  private:
   double reach() const { return reach_in_spacings * spacing_; }
-  static std::vector<Vector> places(const std::vector<Seen>& points) {
-    std::vector<Vector> all;
-    for (const Seen& point : points) all.emplace_back(point.place[0], point.place[1], point.place[2]);
-    return all;
-  }
   // Calls visit(volume, x - y, |x - y|²) for the points y around x.
   template <class Visit>
   void around(const Vector& x, Visit&& visit) const {
@@ -109,16 +105,12 @@ class Material {
 // The material of a block: this rank's points within `box`, and those of other ranks near `mine`.
 Material material_of(const Domain& domain, int block, Place place, const Eigen::AlignedBox3d& box,
                      const Eigen::AlignedBox3d& mine, double near) {
-  std::vector<Vector> places;
   std::vector<Seen> points;
   for (int i = 0; i < domain.owned; ++i) {
     const Vector x = (domain.*place)(i);
-    if (domain.cloud.blocks[i] != block || !box.contains(x)) continue;
-    places.push_back(x);
-    points.push_back({{x[0], x[1], x[2]}, domain.volume(i)});
+    if (domain.cloud.blocks[i] == block && box.contains(x)) points.push_back({{x[0], x[1], x[2]}, domain.volume(i)});
   }
-  const auto others = from_nearby_ranks(mine, places, std::span<const Seen>(points), near, domain.communicator);
-  points.insert(points.end(), others.begin(), others.end());
+  add_nearby(points, mine, near, domain.communicator);
   return {points, domain.blocks[block].spacing, domain.cloud.at};
 }
 

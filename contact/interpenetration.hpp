@@ -1,4 +1,5 @@
-// Interpenetration of bodies, whatever the distance at which their points touch.
+// Interpenetration of material: of bodies in contact, whatever the distance at which their points touch, and without a
+// declared contact between bodies, or within a body that folds.
 #pragma once
 
 #include <cstdint>
@@ -30,5 +31,11 @@ struct Overlap {
 
 // Collective. All pairs of blocks whose bounding boxes overlap; `points` may be empty.
 std::vector<Overlap> overlapping_blocks(const Domain& domain);
+
+// Collective. Points at surfaces, of all blocks without contact, that have come closer than half a spacing to others at
+// surfaces: of another body, or of the same body if they started more than two horizons apart. Its blocks are those of
+// `point`, known where that is, equal for a block with itself; no `part`. Free if all blocks may touch each other and
+// themselves, or if hardly anything has moved.
+std::optional<Interpenetration> find_undeclared(const Domain& domain, const Contact& contact);
 
 }  // namespace strut::contact

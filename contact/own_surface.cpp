@@ -82,7 +82,7 @@ template <class Record>
 class Near {
  public:
   Near(std::vector<Record> own, const Eigen::AlignedBox3d& mine, double reach, const Communicator& communicator)
-      : all_(with_others(std::move(own), mine, reach, communicator)), grid_(places(all_), reach) {}
+      : all_(with_others(std::move(own), mine, reach, communicator)), grid_(places_of(all_), reach) {}
 
   // Calls visit(record, its position relative to x) for those of a body within `reach` of x.
   template <class Visit>
@@ -98,16 +98,9 @@ class Near {
  private:
   static std::vector<Record> with_others(std::vector<Record> own, const Eigen::AlignedBox3d& mine, double reach,
                                          const Communicator& communicator) {
-    const std::vector<Record> others =
-        from_nearby_ranks(mine, places(own), std::span<const Record>(own), reach, communicator);
-    own.insert(own.end(), others.begin(), others.end());
+    add_nearby(own, mine, reach, communicator);
     std::sort(own.begin(), own.end(), [](const Record& a, const Record& b) { return a.id < b.id; });
     return own;
-  }
-  static std::vector<Vector> places(const std::vector<Record>& records) {
-    std::vector<Vector> places;
-    for (const Record& record : records) places.push_back(record.at());
-    return places;
   }
 
   std::vector<Record> all_;

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "contact/breaks.hpp"
-#include "contact/largest_eigenvalue.hpp"
 #include "contact/laws/contact_law.hpp"
 #include "contact/own_surface.hpp"
 #include "contact/search/search.hpp"

@@ -5,9 +5,9 @@
 //   f_i = Σ_j (a_i V_j W'_i + a_j V_i W'_j) η/|η|.
 //
 // Friction is a spring from each such point to the patch of the other body that it feels. It acts at one position,
-// between both surfaces, on the point's own neighborhood (couples.hpp) and on the patch, as a force and a couple
-// (patch.hpp). It yields at μ times the normal force (Coulomb), so sticking points do not creep. In equilibria it acts
-// at the point itself, and the spring follows the mean motion of the patch's points instead of the rotating patch:
+// between both surfaces, on the point's own neighborhood and on the patch, as a force and a couple
+// (couples.hpp). It yields at μ times the normal force (Coulomb), so sticking points do not creep. In equilibria it
+// acts at the point itself, and the spring follows the mean motion of the patch's points instead of the rotating patch:
 // pressed and sheared surfaces rotate between their points, which as slip would be an additional compliance.
 #pragma once
 
@@ -19,7 +19,6 @@
 
 #include "base/archive.hpp"
 #include "contact/forces.hpp"
-#include "contact/patch.hpp"
 
 namespace strut::contact {
 

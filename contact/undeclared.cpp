@@ -1,10 +1,10 @@
-#include "contact/undeclared.hpp"
-
+// Interpenetration of material without a declared contact: of points at surfaces that have come too close.
 #include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "contact/interpenetration.hpp"
 #include "contact/own_surface.hpp"
 #include "topology/bounding_box.hpp"
 #include "topology/nearby_ranks.hpp"
@@ -39,9 +39,8 @@ class Uncovered {
 // A point, in the form in which it is sent to other ranks.
 struct Seen {
   double current[3], reference[3], inward[3], spacing, horizon, block, index;
+  Vector at() const { return Vector::Map(current); }
 };
-
-Vector place_of(const Seen& point) { return Vector::Map(point.current); }
 
 // Vector from a node into its body, Σ V (y_j − y_i) over its family; zero for centers of cells, which need none.
 Vector inward_at(const Domain& domain, int i) {
@@ -87,14 +86,14 @@ std::vector<Seen> images_of(const Domain& domain, std::span<const Seen> points, 
   std::vector<Seen> all;
   if (domain.periods.empty()) return all;
   Eigen::AlignedBox3d cell;
-  for (const Seen& point : points) cell.extend(place_of(point));
+  for (const Seen& point : points) cell.extend(point.at());
   cell = common_box(cell, domain.communicator);
   const Images images(domain.periods, 0);
   for (const int image : images.of_body(0)) {
     const Reflection& by = images[image];
     for (Seen point : points) {
       shift(point, by.stretched(domain.halo.stretch()).shift, by.shift);
-      if (cell.squaredExteriorDistance(place_of(point)) <= reach * reach) all.push_back(point);
+      if (cell.squaredExteriorDistance(point.at()) <= reach * reach) all.push_back(point);
     }
   }
   return all;
@@ -104,7 +103,7 @@ std::vector<Seen> images_of(const Domain& domain, std::span<const Seen> points, 
 // so that points beside an edge or a corner of that body do not count.
 bool is_behind(const Seen& point, const Seen& face) {
   constexpr double straight = 0.85;  // the cosine; of the corner of a cube it is 0.82 at the most
-  const Vector apart = place_of(point) - place_of(face), inward = Vector::Map(face.inward);
+  const Vector apart = point.at() - face.at(), inward = Vector::Map(face.inward);
   return apart.dot(inward) > straight * apart.norm() * inward.norm();
 }
 
@@ -132,11 +131,12 @@ bool hardly_moved(const Domain& domain) {
   return ways.isEmpty() || ways.diagonal().norm() < (1 - near) * domain.communicator.min(spacing);
 }
 
-// Counts the passed points of this rank, which are the first `mine` of `all`; `places`: positions of all.
-Undeclared passed_points(const Domain& domain, const Uncovered& uncovered, std::size_t mine,
-                         const std::vector<Seen>& all, const std::vector<Vector>& places, double reach) {
-  Undeclared found;
+// Counts the passed points of this rank, which are the first `mine` of `all`.
+Interpenetration passed_points(const Domain& domain, const Uncovered& uncovered, std::size_t mine,
+                               const std::vector<Seen>& all, double reach) {
+  Interpenetration found;
   if (mine == 0) return found;
+  const std::vector<Vector> places = places_of(all);
   const CellGrid grid(places, reach);
   for (std::size_t k = 0; k < mine; ++k) {
     const Seen* partner = nullptr;
@@ -156,22 +156,21 @@ Undeclared passed_points(const Domain& domain, const Uncovered& uncovered, std::
 
 }  // namespace
 
-std::optional<Undeclared> find_undeclared(const Domain& domain, const Contact& contact) {
+std::optional<Interpenetration> find_undeclared(const Domain& domain, const Contact& contact) {
   const Uncovered uncovered(domain, contact);
   if (!uncovered.any() || hardly_moved(domain)) return std::nullopt;
   std::vector<Seen> all = at_surfaces(domain);
   fold(domain, all);
   const std::size_t mine = all.size();
-  std::vector<Vector> places;
   double spacing = 0;
-  for (const Seen& point : all) places.push_back(place_of(point)), spacing = std::max(spacing, point.spacing);
+  for (const Seen& point : all) spacing = std::max(spacing, point.spacing);
   const Communicator& ranks = domain.communicator;
   const double reach = near * ranks.max(spacing);
-  const Eigen::AlignedBox3d box = box_around(places);
-  for (const Seen& image : images_of(domain, all, reach)) all.push_back(image), places.push_back(place_of(image));
-  const auto others = from_nearby_ranks(box, places, std::span<const Seen>(all), reach, ranks);
-  for (const Seen& point : others) all.push_back(point), places.push_back(place_of(point));
-  Undeclared found = passed_points(domain, uncovered, mine, all, places, reach);
+  const Eigen::AlignedBox3d box = box_around(places_of(all));
+  const std::vector<Seen> images = images_of(domain, all, reach);
+  all.insert(all.end(), images.begin(), images.end());
+  add_nearby(all, box, reach, ranks);
+  Interpenetration found = passed_points(domain, uncovered, mine, all, reach);
   found.points = ranks.sum(found.points);
   if (found.points == 0) return std::nullopt;
   const double teller = ranks.max(found.point >= 0 ? ranks.rank() : -1.0);

@@ -25,21 +25,11 @@ PointStress Brittle::soften(const PointStep& step, const Symmetric& stress, Stat
   }
   const Symmetric next = scaled(effective, 1 - reached.damage);
   if (reached.damage > state.damage) {
-    const double old_J = old_determinant(step);
-    const double stored_more = step.J * elastic_energy(next, reached) - old_J * elastic_energy(stress, state);
-    reached.dissipated += std::max(0.0, step_work(step, old_J, stress, next) - stored_more);
+    reached.dissipated += std::max(0.0, lost(*this, step, old_determinant(step), stress, state, next, reached));
   }
   if (!std::isfinite(reached.dissipated)) return {stress, false};
   state = reached;
   return {next, true};
-}
-
-void Brittle::soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
-                          const StateOf<RawLanes>& state, StateOf<RawLanes>& next, StressOf<RawLanes>& result) const {
-  const auto of_point = [this](const PointStep& one, const Symmetric& old, State& own) {
-    return soften(one, old, own);
-  };
-  soften_lane_by<State>(of_point, l, step, stress, state, next, result);
 }
 
 }  // namespace strut::materials

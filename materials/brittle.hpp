@@ -40,13 +40,14 @@ struct Brittle {
     } else {
       if (any(cracks)) [[unlikely]] {
         const StateOf<T> before = state;
-        for (int l = 0; l < small::lane_count; ++l) {
-          if (cracks[l]) soften_lane(l, step, stress, before, state, result);
-        }
+        soften_lanes(*this, cracks, step, stress, before, state, result);
       }
       return result;
     }
   }
+
+  // The step of a point that cracks.
+  PointStress soften(const PointStep& step, const Symmetric& stress, State& state) const;
 
   Moduli moduli() const { return solid.moduli(); }
   double elastic_energy(const Symmetric& stress, const State& state) const {
@@ -69,11 +70,6 @@ struct Brittle {
     const T room = strength - trace(stress) / 3;
     return room < 0 || 2.0 / 3 * double_dot(s, s) > room * room;
   }
-
-  // Not inline: it is rare, and laws are inlined everywhere.
-  PointStress soften(const PointStep& step, const Symmetric& stress, State& state) const;
-  void soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
-                   const StateOf<RawLanes>& state, StateOf<RawLanes>& next, StressOf<RawLanes>& result) const;
 };
 
 static_assert(Law<Brittle> && takes_lanes<Brittle>);

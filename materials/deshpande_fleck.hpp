@@ -159,12 +159,10 @@ struct DeshpandeFleck {
     return {0, 0, 1, 1, false};
   }
 
-  // Work of the step that is not stored, including what a compacted point loses as its moduli grow.
+  // With what a compacted point loses as its moduli grow.
   double lost(const PointStep& step, const Symmetric& before, const State& old_state, const Symmetric& after,
               const State& state) const {
-    const double old_J = old_determinant(step);
-    const double stored_more = step.J * elastic_energy(after, state) - old_J * elastic_energy(before, old_state);
-    return std::max(0.0, step_work(step, old_J, before, after) - stored_more);
+    return std::max(0.0, materials::lost(*this, step, old_determinant(step), before, old_state, after, state));
   }
 
   PointStress fail(const PointStep& step, const Symmetric& stress, State& state) const {

@@ -31,26 +31,14 @@ PointStress DuctileOf<Metal>::soften(const PointStep& step, const Symmetric& str
   const bool holds = reached.damage < 1;
   if (!holds) reached.metal.plastic_strain_rate = 0;
   const Symmetric next = holds ? scaled(effective, 1 - reached.damage) : Symmetric(Symmetric::Zero());
-  const double old_J = old_determinant(step);
-  const double stored_more = step.J * elastic_energy(next, reached) - old_J * elastic_energy(stress, state);
-  const double lost = step_work(step, old_J, stress, next) - stored_more;
-  reached.metal.plastic_work = state.metal.plastic_work + std::max(0.0, lost);
+  const double more = std::max(0.0, lost(*this, step, old_determinant(step), stress, state, next, reached));
+  reached.metal.plastic_work = state.metal.plastic_work + more;
   if constexpr (tells_heat<Metal>) {
-    reached.metal.temperature = state.metal.temperature + metal.rise(std::max(0.0, lost), step.viscous_work);
+    reached.metal.temperature = state.metal.temperature + metal.rise(more, step.viscous_work);
   }
   if (!std::isfinite(reached.metal.plastic_work)) return {stress, false};
   state = reached;
   return {next, true};
-}
-
-template <class Metal>
-void DuctileOf<Metal>::soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
-                                   const StateOf<RawLanes>& state, StateOf<RawLanes>& next,
-                                   StressOf<RawLanes>& result) const {
-  const auto of_point = [this](const PointStep& one, const Symmetric& old, State& own) {
-    return soften(one, old, own);
-  };
-  soften_lane_by<State>(of_point, l, step, stress, state, next, result);
 }
 
 template struct DuctileOf<J2>;

@@ -51,13 +51,14 @@ struct DuctileOf {
     } else {
       StateOf<T> next = state;
       StressOf<T> result = flow(step, stress, next);
-      for (int l = 0; any(fails) && l < small::lane_count; ++l) {
-        if (fails[l]) soften_lane(l, step, stress, state, next, result);
-      }
+      if (any(fails)) soften_lanes(*this, fails, step, stress, state, next, result);
       state = next;
       return result;
     }
   }
+
+  // The step of a point whose criterion is met.
+  PointStress soften(const PointStep& step, const Symmetric& stress, State& state) const;
 
   State virgin_state() const { return {virgin_state_of(metal), 0, 0}; }
   Moduli moduli() const { return metal.moduli(); }
@@ -106,11 +107,7 @@ struct DuctileOf {
     return result;
   }
 
-  // Softening after the criterion is met, for one point. Not inline: it is rare, and laws are inlined everywhere.
-  PointStress soften(const PointStep& step, const Symmetric& stress, State& state) const;
   double reduced(double x, double flowed, double elastic) const;
-  void soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
-                   const StateOf<RawLanes>& state, StateOf<RawLanes>& next, StressOf<RawLanes>& result) const;
 };
 
 using Ductile = DuctileOf<J2>;

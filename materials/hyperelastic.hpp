@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include "materials/elastic.hpp"
 #include "materials/law.hpp"
@@ -37,39 +36,12 @@ struct Hyperelastic {
     std::array<double, 6> last{};                   // S̃₀ at the end of the last step, Pa
     std::array<double, 6 * most_times> branches{};  // h_k, Pa
   };
-  static constexpr std::array<std::string_view, 9 + 6 * most_times> state_names{"Stiffening",
-                                                                                "Elastic_Energy_Density",
-                                                                                "Dissipated_Energy_Density",
-                                                                                "Last_XX",
-                                                                                "Last_YY",
-                                                                                "Last_ZZ",
-                                                                                "Last_XY",
-                                                                                "Last_YZ",
-                                                                                "Last_ZX",
-                                                                                "Branch_1_XX",
-                                                                                "Branch_1_YY",
-                                                                                "Branch_1_ZZ",
-                                                                                "Branch_1_XY",
-                                                                                "Branch_1_YZ",
-                                                                                "Branch_1_ZX",
-                                                                                "Branch_2_XX",
-                                                                                "Branch_2_YY",
-                                                                                "Branch_2_ZZ",
-                                                                                "Branch_2_XY",
-                                                                                "Branch_2_YZ",
-                                                                                "Branch_2_ZX",
-                                                                                "Branch_3_XX",
-                                                                                "Branch_3_YY",
-                                                                                "Branch_3_ZZ",
-                                                                                "Branch_3_XY",
-                                                                                "Branch_3_YZ",
-                                                                                "Branch_3_ZX",
-                                                                                "Branch_4_XX",
-                                                                                "Branch_4_YY",
-                                                                                "Branch_4_ZZ",
-                                                                                "Branch_4_XY",
-                                                                                "Branch_4_YZ",
-                                                                                "Branch_4_ZX"};
+  static constexpr auto state_names = words<9 + 6 * most_times>(
+      "Stiffening Elastic_Energy_Density Dissipated_Energy_Density Last_XX Last_YY Last_ZZ Last_XY Last_YZ Last_ZX "
+      "Branch_1_XX Branch_1_YY Branch_1_ZZ Branch_1_XY Branch_1_YZ Branch_1_ZX "
+      "Branch_2_XX Branch_2_YY Branch_2_ZZ Branch_2_XY Branch_2_YZ Branch_2_ZX "
+      "Branch_3_XX Branch_3_YY Branch_3_ZZ Branch_3_XY Branch_3_YZ Branch_3_ZX "
+      "Branch_4_XX Branch_4_YY Branch_4_ZZ Branch_4_XY Branch_4_YZ Branch_4_ZX");
   bool shows(std::size_t k) const { return k == 1 || k == 2; }
 
   PointStress step(const PointStep& step, const Symmetric& stress, State& state) const;

@@ -22,6 +22,9 @@
 //   part_left         optional, for laws that soften as they fail: fraction of stress that a point still carries, 1 to
 //                     0, with the state as an argument. It also scales the stabilization.
 //   set_crack_length  optional: sets the length over which a crack smears its opening, m.
+//   move_stress       optional, for laws of the second form with a history: changes the state so that the stress stays
+//                     where the stretch jumps without motion, for instance because bonds of the point broke; the next
+//                     step continues from that stress. Without it the stress would follow the jump.
 //   crack_work        optional, for laws whose dissipation opens cracks: the part of dissipation that counts as energy of
 //                     fracture, J per m³ of reference volume; with set_crack, which sets their strength, Pa, and the
 //                     width over which a crack dissipates its energy, m.
@@ -39,6 +42,7 @@
 // clang-format on
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <concepts>
@@ -168,6 +172,18 @@ inline constexpr bool has_tangent = requires(const L law, const PointStep& step,
                                              const typename L::State& state) {
   { law.tangent(step, stress, state) } -> std::same_as<StretchTangent>;
 };
+
+// The names in a text, separated by blanks.
+template <std::size_t count>
+consteval std::array<std::string_view, count> words(std::string_view text) {
+  std::array<std::string_view, count> names;
+  for (std::string_view& name : names) {
+    name = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(name.size() + 1, text.size()));
+  }
+  if (!text.empty() || names[count - 1].empty()) throw "another number of names";
+  return names;
+}
 
 // The number of doubles in a law's State.
 template <class L>

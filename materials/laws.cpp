@@ -1,6 +1,8 @@
-// Checks at compile time that every law of the variant satisfies the interface; and selects the law of a metal that may
-// fail.
+// Checks at compile time that every law of the variant satisfies the interface; selects the law of a metal that may
+// fail; and has the longer functions of hot metals.
 #include "materials/laws.hpp"
+
+#include <algorithm>
 
 namespace strut::materials {
 
@@ -24,6 +26,35 @@ std::optional<AnyLaw> cracking(const AnyLaw& solid, double fracture_energy) {
   const auto* elastic = std::get_if<Elastic>(&solid);
   if (!elastic) return std::nullopt;
   return Brittle{.solid = *elastic, .fracture_energy = fracture_energy};
+}
+
+ThermalJ2::State ThermalJ2::virgin_state() const {
+  const auto* threshold = std::get_if<MechanicalThreshold>(&flow);
+  return {{}, heating.initial, threshold ? threshold->initial : 0};
+}
+
+double ThermalJ2::flow_stress(const State& state) const {
+  const auto reached = [&state](const auto& law) {
+    const auto now = law.at(state, Symmetric(Symmetric::Zero()));
+    return now.at_rate(state.plastic_strain_rate, now.at_rest(state.equivalent_plastic_strain)).stress;
+  };
+  return std::visit(reached, flow);
+}
+
+ShockJ2::State ShockJ2::virgin_state() const {
+  State state;
+  static_cast<ThermalJ2::State&>(state) = metal.virgin_state();
+  return state;
+}
+
+// ρ c² at constant entropy is v (γ p − dp_c/dv); the lower limit, a tenth of the value at rest, is for tension.
+Moduli ShockJ2::moduli(const State& state) const {
+  const auto bulk_of = [&state](const auto& law) {
+    const Curve<double> cold = law.cold(state.volume);
+    const double gamma = law.energy_factor(), pressure = cold.value + gamma * state.energy;
+    return std::max(0.1 * law.bulk(), state.volume * (gamma * pressure - cold.slope));
+  };
+  return {std::visit(bulk_of, equation), metal.shear_modulus(state)};
 }
 
 }  // namespace strut::materials

@@ -21,7 +21,8 @@ PointStress PolymerFoam::step(const PointStep& step, const Symmetric& stress, St
   reached.relative_density = initial_density / step.J;
   if (found.deviatoric < 1) {
     store_flow(step, trial, found, reached);
-    const double lost = this->lost(step, stress, state, next, reached);
+    // So that the ledger closes in steps with flow; with the loss of a foam that stores energy at a higher modulus.
+    const double lost = materials::lost(*this, step, determinant(state), stress, state, next, reached);
     if (!std::isfinite(lost)) return {stress, false};
     reached.plastic_work += std::max(0.0, lost);
   }
@@ -142,11 +143,11 @@ double PolymerFoam::equivalent_increment(const Trial& trial, const Return& found
   return x * std::sqrt((q * q + beta2 * p * p) * (1 + beta2 / 9));
 }
 
-double PolymerFoam::lost(const PointStep& step, const Symmetric& before, const State& old_state, const Symmetric& after,
-                         const State& state) const {
-  const double old_J = determinant(old_state);
-  const double stored_more = step.J * elastic_energy(after, state) - old_J * elastic_energy(before, old_state);
-  return step_work(step, old_J, before, after) - stored_more;
+void PolymerFoam::move_stress(const Tensor& from, const Tensor& to, State& state) const {
+  Eigen::Map<Symmetric> plastic(state.plastic_strain.data());
+  const Tensor inverse = Tensor::Identity() - 2 * to_tensor(plastic), change = to.inverse() * from;
+  plastic = 0.5 * symmetric_part(Tensor::Identity() - change * inverse * change.transpose());
+  state.relative_density = initial_density / to.determinant();
 }
 
 }  // namespace strut::materials

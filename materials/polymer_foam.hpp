@@ -18,7 +18,6 @@
 
 #include <array>
 #include <limits>
-#include <string_view>
 
 #include "base/math/tensors.hpp"
 #include "materials/elastic.hpp"
@@ -45,15 +44,17 @@ struct PolymerFoam {
     double plastic_work = 0;                 // J per m³ of reference volume
     double relative_density = 0;             // ρ*; 0: not deformed yet
   };
-  static constexpr std::array<std::string_view, 10> state_names{
-      "Plastic_Strain_XX",    "Plastic_Strain_YY", "Plastic_Strain_ZZ",  "Plastic_Strain_XY",
-      "Plastic_Strain_YZ",    "Plastic_Strain_ZX", "Plastic_Compaction", "Equivalent_Plastic_Strain",
-      "Plastic_Work_Density", "Relative_Density"};
+  static constexpr auto state_names = words<10>(
+      "Plastic_Strain_XX Plastic_Strain_YY Plastic_Strain_ZZ Plastic_Strain_XY Plastic_Strain_YZ Plastic_Strain_ZX "
+      "Plastic_Compaction Equivalent_Plastic_Strain Plastic_Work_Density Relative_Density");
 
   PointStress step(const PointStep& step, const Symmetric& stress, State& state) const;
 
   // ∂σ_c/∂U_d; see law.hpp.
   StretchTangent tangent(const PointStep& step, const Symmetric& old_stress, const State& old_state) const;
+
+  // b_e = U C_p⁻¹ U stays constant.
+  void move_stress(const Tensor& from, const Tensor& to, State& state) const;
 
   State virgin_state() const { return {.relative_density = initial_density}; }
 
@@ -168,11 +169,6 @@ struct PolymerFoam {
 
   // Δγ √(1 + β²/9): the axial plastic strain in uniaxial compression. Δγ = x √(q² + β² p²).
   double equivalent_increment(const Trial& trial, const Return& found) const;
-
-  // The work of the step minus the increase of stored energy, so that the ledger closes in steps with flow; it includes
-  // the loss of a foam that stores energy at a higher modulus.
-  double lost(const PointStep& step, const Symmetric& before, const State& old_state, const Symmetric& after,
-              const State& state) const;
 
   // ---- The tangent --------------------------------------------------------------------------------------------------
 

@@ -24,19 +24,24 @@ double energy_of_softened(const Symmetric& stress, double x, double bulk, const 
   return pressed * pressed / (2 * bulk) + whole(falling(stress)) / x;
 }
 
-// Computes lane l of a step by `soften`, which steps one point.
-template <class State, class Lanes, class Soften>
-void soften_lane_by(const Soften& soften, int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
-                    const Lanes& state, Lanes& next, StressOf<RawLanes>& result) {
-  PointStep of_one{{}, step.dt[l], step.J[l], {}, step.viscous_work[l]};
-  Symmetric old;
-  for (int c = 0; c < 6; ++c) of_one.rate[c] = step.rate[c][l], of_one.stretch[c] = step.stretch[c][l];
-  for (int c = 0; c < 6; ++c) old[c] = stress[c][l];
-  State one = lane_of<State>(state, l);
-  const auto [reached, converged] = soften(of_one, old, one);
-  set_lane(next, l, one);
-  for (int c = 0; c < 6; ++c) result.stress[c][l] = reached[c];
-  result.converged[l] = converged ? -1 : 0;
+// Computes the chosen lanes of a step by law.soften, which steps one point. Not inline: it is rare, and laws are
+// inlined everywhere.
+template <class L, class Lanes>
+__attribute__((noinline)) void soften_lanes(const L& law, const MaskOf<RawLanes>& chosen, const StepOf<RawLanes>& step,
+                                            const SymmetricOf<RawLanes>& stress, const Lanes& state, Lanes& next,
+                                            StressOf<RawLanes>& result) {
+  for (int l = 0; l < small::lane_count; ++l) {
+    if (!chosen[l]) continue;
+    PointStep of_one{{}, step.dt[l], step.J[l], {}, step.viscous_work[l]};
+    Symmetric old;
+    for (int c = 0; c < 6; ++c) of_one.rate[c] = step.rate[c][l], of_one.stretch[c] = step.stretch[c][l];
+    for (int c = 0; c < 6; ++c) old[c] = stress[c][l];
+    auto one = lane_of<typename L::State>(state, l);
+    const auto [reached, converged] = law.soften(of_one, old, one);
+    set_lane(next, l, one);
+    for (int c = 0; c < 6; ++c) result.stress[c][l] = reached[c];
+    result.converged[l] = converged ? -1 : 0;
+  }
 }
 
 }  // namespace strut::materials

@@ -13,4 +13,12 @@ double old_determinant(const PointStep& step);
 // through the step. `before`, `after`: unrotated Cauchy stresses at its ends, Pa.
 double step_work(const PointStep& step, double old_J, const Symmetric& before, const Symmetric& after);
 
+// The part of the work of a step that a law does not store.
+template <class L>
+double lost(const L& law, const PointStep& step, double old_J, const Symmetric& before,
+            const typename L::State& old_state, const Symmetric& after, const typename L::State& state) {
+  const double stored_more = step.J * law.elastic_energy(after, state) - old_J * law.elastic_energy(before, old_state);
+  return step_work(step, old_J, before, after) - stored_more;
+}
+
 }  // namespace strut::materials

@@ -232,7 +232,7 @@ std::string temperatures_below_zero(const Situation& situation) {
     for (const int i : one.points) {
       const Vector X = body.domain.reference(i);
       for (const double t : {situation.start, situation.start + situation.duration})
-        least = std::min(least, one.temperature.evaluate(X[0], X[1], X[2], t));
+        least = std::min(least, one.temperature.evaluate(X, t));
     }
     least = -body.domain.communicator.max(-least);
     if (least >= 0) continue;

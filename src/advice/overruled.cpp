@@ -87,7 +87,7 @@ void move_on(const Conditions& conditions, const Domain& domain, double time, do
     if constexpr (std::is_same_v<One, PrescribedMotion>) {
       for (const int i : one.points) {
         const Vector X = domain.reference(i);
-        const double value = one.value.evaluate(X[0], X[1], X[2], one.is_velocity ? time - 0.5 * step : time);
+        const double value = one.value.evaluate(X, one.is_velocity ? time - 0.5 * step : time);
         for (const int c : one.components) ways[i][c] = one.is_velocity ? ways[i][c] + step * value : value;
       }
     }

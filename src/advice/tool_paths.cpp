@@ -5,7 +5,7 @@
 
 #include "advice/checks.hpp"
 #include "conditions/crossing.hpp"
-#include "conditions/periodic_sides.hpp"
+#include "conditions/prototype.hpp"
 
 namespace strut {
 

@@ -1,14 +1,12 @@
 #include "conditions/body_force.hpp"
 
-#include "conditions/value_at_point.hpp"
-
 namespace strut {
 
 namespace {
 
 // Load at a point, N/m³. A condition that assigns part of a point's inertia to another body takes its part of the load.
 double load_at(const Function& value, const Body& body, int i, double t) {
-  return body.inertia_share(i) * value_at_point(value, body, i, t);
+  return body.inertia_share(i) * value(body.domain.reference(i), t);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "conditions/prescribed_motion.hpp"
 
-#include "conditions/value_at_point.hpp"
 #include "conditions/velocity_update.hpp"
 
 namespace strut {
@@ -10,7 +9,7 @@ namespace {
 // Component c of the velocity that moves point i along the motion in its next step.
 double imposed_velocity(const PrescribedMotion& motion, int c, int i, const VelocityUpdate& update) {
   const Body& body = update.body;
-  const auto value = [&](double time) { return value_at_point(motion.value, body, i, time); };
+  const auto value = [&](double time) { return motion.value(body.domain.reference(i), time); };
   const double dt = update.steps.of(i);
   if (motion.is_velocity) return value(update.t + 0.5 * dt);
   const double target = body.domain.reference(i)[c] + update.steps.after(value, update.t, dt);
@@ -19,7 +18,7 @@ double imposed_velocity(const PrescribedMotion& motion, int c, int i, const Velo
 
 // Component c of the position of point i at the end of the motion from t to t + dt, m.
 double target_of(const PrescribedMotion& motion, int c, const Body& body, int i, double t, double dt) {
-  const auto value = [&](double time) { return value_at_point(motion.value, body, i, time); };
+  const auto value = [&](double time) { return motion.value(body.domain.reference(i), time); };
   if (motion.is_velocity) return body.current(i)[c] + dt * value(t + 0.5 * dt);
   return body.domain.reference(i)[c] + value(t + dt);
 }
@@ -50,7 +49,7 @@ std::optional<PrescribedMotion> PrescribedMotion::in_substeps(const MovingPoints
 void PrescribedMotion::predict_velocities(double t, double moment, const Body& body,
                                           std::vector<Vector>& velocities) const {
   for_each_component(*this, [&](int c, int i) {
-    const auto at = [&](double time) { return value_at_point(value, body, i, time); };
+    const auto at = [&](double time) { return value(body.domain.reference(i), time); };
     velocities[i][c] = is_velocity ? at(t) : (at(t + moment) - at(t)) / moment;
   });
 }

@@ -60,6 +60,13 @@ struct VelocityUpdate {
 };
 
 // Adds the work of the recorded impulses, with the velocities after all conditions.
-void add_work(const VelocityUpdate& update, ImpulseWork& work);
+inline void add_work(const VelocityUpdate& update, ImpulseWork& work) {
+  for (const auto& [i, half_impulse, entry] : update.recorded) {
+    work.before.*entry += half_impulse.dot(update.body.previous_velocity[i]);
+    work.after.*entry += half_impulse.dot(update.body.velocity[i]);
+  }
+  work.before = work.before + update.of_tools.before;
+  work.after = work.after + update.of_tools.after;
+}
 
 }  // namespace strut

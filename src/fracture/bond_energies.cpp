@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "mechanics/formulation/ordinary.hpp"
+#include "mechanics/formulation/stress_pass.hpp"
 #include "mechanics/kernels/bonds.hpp"
 
 namespace strut {

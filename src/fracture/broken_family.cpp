@@ -4,7 +4,6 @@
 
 #include "base/math/rotation.hpp"
 #include "fracture/separation.hpp"
-#include "materials/moved_stress.hpp"
 #include "materials/tangent.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/bonds.hpp"
@@ -67,7 +66,7 @@ void follow(MaterialBlock& block, std::size_t place, MaterialPoint& point, const
       if constexpr (requires { state.time; }) state.time = block.state_of<L>(place).time;  // that step follows
       if (converged) point.stress = stress;
     }
-    materials::move_stress(law, to, jumped, state);
+    if constexpr (requires { law.move_stress(to, jumped, state); }) law.move_stress(to, jumped, state);
     const auto columns = materials::to_columns<L>(state);
     for (std::size_t c = 0; c < columns.size(); ++c) block.state->at(place, c) = columns[c];
   };

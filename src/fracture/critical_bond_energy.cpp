@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fracture/separation.hpp"
-#include "mechanics/formulation/ordinary.hpp"
+#include "mechanics/formulation/stress_pass.hpp"
 
 namespace strut {
 

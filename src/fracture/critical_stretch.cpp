@@ -1,5 +1,4 @@
-#include "fracture/critical_stretch.hpp"
-
+// The critical stretch or bond energy for which a crack dissipates the given fracture energy, at a given spacing.
 #include <algorithm>
 #include <cmath>
 
@@ -122,14 +121,7 @@ double energy_of_half(const PulledLattice& lattice, const std::vector<LatticeBon
 double energy_of_separation(const PulledLattice& lattice) {
   if (lattice.formulation == Formulation::quadratic) return separation_of_cells(lattice);
   const std::vector<LatticeBond> family = family_of(lattice);
-  std::vector<double> openings;
-  int layers = 0;
-  for (const LatticeBond& bond : family) {
-    if (bond.layers_below <= 0) continue;
-    openings.push_back(bond.opening);
-    layers = std::max(layers, bond.layers_below);
-  }
-  std::sort(openings.begin(), openings.end());
+  const auto [openings, layers] = openings_of(family);
   double released = 0, before = 0;
   for (const double opening : openings) {
     if (opening <= before * (1 + 1e-12)) continue;
@@ -139,6 +131,26 @@ double energy_of_separation(const PulledLattice& lattice) {
     before = after;
   }
   return 2 * lattice.spacing * released;  // both halves
+}
+
+GradualCrack gradual_crack(const PulledLattice& lattice, double fracture_energy) {
+  constexpr double zone = 4;                    // E G_c/σ_c², spacings: fewer do not resolve the zone that softens
+  double trace = 0, stretches = 0, across = 0;  // stretches: sum of their squares at an opening of 1 m
+  const std::vector<LatticeBond> family = family_of(lattice);
+  std::vector<double> parts(openings_of(family).layers, 0);  // of the opening in the gradient of the layers, times K
+  for (const LatticeBond& bond : family) {
+    trace += bond.weight * bond.xi.squaredNorm();
+    if (bond.layers_below <= 0) continue;
+    for (int layer = 0; layer < bond.layers_below; ++layer) parts[layer] += bond.weight * std::abs(bond.xi[2]);
+    stretches += bond.layers_below / (bond.opening * bond.opening), across += bond.layers_below;
+  }
+  double squares = 0;  // Σ g², 1/m²; both halves are alike
+  for (const double part : parts) squares += 2 * std::pow(part / (trace / 3), 2);
+  const auto [bulk, shear] = lattice.moduli;
+  const double young = 9 * bulk * shear / (3 * bulk + shear);
+  const double strength = std::sqrt(young * fracture_energy / (zone * lattice.spacing));
+  const double last = 2 * fracture_energy / strength;
+  return {strength, 1 / (lattice.spacing * squares), last * std::sqrt(stretches / across)};
 }
 
 namespace {

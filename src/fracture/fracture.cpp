@@ -6,11 +6,11 @@
 
 #include "base/timing.hpp"
 #include "fracture/broken_family.hpp"
-#include "fracture/critical_stretch.hpp"
+#include "fracture/separation.hpp"
 #include "fracture/work_balance.hpp"
 #include "mechanics/kernels/bonds.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
-#include "mechanics/off_stencil.hpp"
+#include "mechanics/make_body.hpp"
 #include "mechanics/reflected.hpp"
 #include "topology/parallel_for.hpp"
 

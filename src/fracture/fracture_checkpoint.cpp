@@ -8,7 +8,7 @@
 #include "fracture/broken_family.hpp"
 #include "fracture/fracture.hpp"
 #include "mechanics/expansion.hpp"
-#include "mechanics/off_stencil.hpp"
+#include "mechanics/make_body.hpp"
 #include "mechanics/reflected.hpp"
 #include "mechanics/steepness.hpp"
 #include "topology/neighbors/whole_family.hpp"

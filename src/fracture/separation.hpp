@@ -1,4 +1,5 @@
-// Two halves of a lattice that are pulled apart, and how the stress follows the jump of the gradient where bonds break.
+// Two halves of a lattice that are pulled apart, the critical stretch or bond energy for which a crack then dissipates
+// the given fracture energy, and how the stress follows the jump of the gradient where bonds break.
 #pragma once
 
 #include <vector>
@@ -29,6 +30,14 @@ struct LatticeBond {
 // The family of an interior point. An opening Δ between the halves lengthens a bond across the plane by Δ |ξ_z|/|ξ|.
 std::vector<LatticeBond> family_of(const PulledLattice& lattice);
 
+// The openings of the bonds across the plane from a point in the layer above it, ascending, and the number of layers
+// that have such bonds.
+struct Openings {
+  std::vector<double> all;
+  int layers = 0;
+};
+Openings openings_of(const std::vector<LatticeBond>& family);
+
 // Energy dissipated per area of the plane between two halves of a lattice, J/m², that move apart along its normal
 // without deformation, by bonds whose critical stretch is 1, in small strains; for s_c multiply by s_c². Each break
 // dissipates the decrease of the energy of the points on both sides.
@@ -58,5 +67,15 @@ inline constexpr double steepness_of_corners = 8 * (1 + 1e-9);
 // The fraction of a strain jump that the stress follows, for linear elasticity: the λ from 0 to 1 that minimizes the
 // energy W + λ σ:Δε + ½ λ² Δε:C:Δε.
 double part_that_releases(const materials::Moduli& moduli, const Tensor& strain, const Tensor& jump);
+
+// Sets the critical stretch or bond energy of the blocks whose fracture energy is given, from a lattice of their
+// spacing and horizon.
+void set_critical_values(Body& body);
+
+// Sets the length over which a crack smears its opening, for blocks whose points may fail: twice the reach of their
+// families, because all points within it on both sides of a displacement jump have it in their deformation gradients.
+// The reach is the block's largest horizon, or 1.75 spacings by quadratic correspondence, so a graded block takes less
+// energy where it is finer.
+void set_crack_lengths(Body& body);
 
 }  // namespace strut

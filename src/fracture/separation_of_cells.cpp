@@ -2,7 +2,7 @@
 #include <array>
 
 #include "fracture/separation.hpp"
-#include "mechanics/formulation/lattice_cell.hpp"
+#include "mechanics/formulation/cell_fit.hpp"
 #include "mechanics/kernels/bonds.hpp"
 
 namespace strut {
@@ -84,15 +84,8 @@ double SeparatedCell::open(double opening) {
 double separation_of_cells(const PulledLattice& lattice) {
   const std::vector<LatticeBond> family = family_of(lattice);
   std::vector<FitBond> bonds;
-  std::vector<double> openings;
-  int layers = 0;
-  for (const LatticeBond& bond : family) {
-    bonds.push_back({bond.xi, bond.weight});
-    if (bond.layers_below <= 0) continue;
-    openings.push_back(bond.opening);
-    layers = std::max(layers, bond.layers_below);
-  }
-  std::sort(openings.begin(), openings.end());
+  for (const LatticeBond& bond : family) bonds.push_back({bond.xi, bond.weight});
+  const auto [openings, layers] = openings_of(family);
   const double most = steepness_of_corners * lattice_cell(lattice.spacing, bonds).steepness;
   double released = 0;
   for (int layer = 0; layer < layers; ++layer) {
@@ -119,6 +112,17 @@ std::vector<LatticeBond> family_of(const PulledLattice& lattice) {
     }
   });
   return family;
+}
+
+Openings openings_of(const std::vector<LatticeBond>& family) {
+  Openings openings;
+  for (const LatticeBond& bond : family) {
+    if (bond.layers_below <= 0) continue;
+    openings.all.push_back(bond.opening);
+    openings.layers = std::max(openings.layers, bond.layers_below);
+  }
+  std::sort(openings.all.begin(), openings.all.end());
+  return openings;
 }
 
 }  // namespace strut

@@ -11,7 +11,7 @@ namespace {
 
 double temperature(const HeatedPoints& heated, const Body& body, int i, double t) {
   const Vector X = body.domain.reference(i);
-  return heated.temperature(X[0], X[1], X[2], t);
+  return heated.temperature(X, t);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // Force states by formulation: the data of an end point that a bond needs for its force.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
+
+#include "base/math/tensors.hpp"
+#include "mechanics/stabilization.hpp"
 
 namespace strut {
 
@@ -30,6 +32,38 @@ struct GradientState : TensorRecord {
   double& step_share() { return column[1][3]; }
   double kind() const { return column[2][3]; }
 };
+
+namespace bonds {
+
+// A tensor and up to three scalars of a bond's end.
+inline void pack_tensor(const Tensor& tensor, TensorRecord& record) {
+  for (int c = 0; c < 3; ++c) record.column[c] << tensor.col(c).array(), 0;
+}
+
+inline Tensor tensor_of(const TensorRecord& record) {
+  Tensor tensor;
+  for (int c = 0; c < 3; ++c) tensor.col(c) = record.column[c].head<3>().matrix();
+  return tensor;
+}
+
+inline ForceState force_state(const Tensor& A, double stiffness) {
+  ForceState state;
+  pack_tensor(A, state);
+  state.stiffness() = stiffness;
+  return state;
+}
+
+inline GradientState gradient_state(const Tensor& F, double stiffness, double step_share,
+                                    const Stabilization& stabilization) {
+  GradientState state;
+  pack_tensor(F, state);
+  state.stiffness() = stiffness;
+  state.step_share() = step_share;
+  state.column[2][3] = static_cast<double>(stabilization.index());
+  return state;
+}
+
+}  // namespace bonds
 
 // State of an ordinary end: the force state along the bond is t = ω (a |ξ| + b e).
 struct alignas(16) ScalarState {

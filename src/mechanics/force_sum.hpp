@@ -3,10 +3,8 @@
 
 #include <span>
 
-#include "mechanics/formulation/correspondence.hpp"
-#include "mechanics/formulation/ordinary.hpp"
-#include "mechanics/formulation/quadratic.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
+#include "mechanics/formulation/stress_pass.hpp"
 #include "mechanics/kernels/ordinary_bonds.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 #include "mechanics/passes.hpp"

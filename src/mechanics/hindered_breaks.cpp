@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mechanics/breaks_at_rest.hpp"
+#include "mechanics/body.hpp"
 
 namespace strut {
 

@@ -5,9 +5,8 @@
 #include <stdexcept>
 
 #include "materials/state_variables.hpp"
-#include "mechanics/formulation/consistency_correction.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
-#include "mechanics/off_stencil.hpp"
 #include "mechanics/steepness.hpp"
 #include "topology/parallel_for.hpp"
 #include "topology/planes_through.hpp"
@@ -237,10 +236,39 @@ double footprint(const Body& body) {
   return bytes;
 }
 
+void set_off_stencil(const Domain& domain, MaterialBlock& block) {
+  block.off_stencil = {};
+  if (block.lattice < 0 || domain.families.off_stencil.empty()) return;
+  const ClusterLists& lists = domain.families.lists;
+  for (std::size_t k = 0; k < block.points.size();) {
+    if (!domain.families.is_off_stencil(block.points[k])) {
+      ++k;
+      continue;
+    }
+    const int c = lists.holding(block.points[k]);
+    const Cluster cluster = lists[c];
+    unsigned members = 0;
+    for (; k < block.points.size() && block.points[k] <= cluster.points.back(); ++k) {
+      if (!domain.families.is_off_stencil(block.points[k])) continue;
+      block.off_stencil.places.push_back(static_cast<int>(k));
+      members |= 1u << (block.points[k] - cluster.points[0]);
+    }
+    block.off_stencil.lists.append(cluster, members);
+  }
+}
+
+materials::Moduli MaterialBlock::moduli(std::size_t place) const {
+  return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, state_of<L>(place)); }, material.law);
+}
+
 template class FieldOf<std::vector<MaterialPoint>>;
 template class FieldOf<Deduplicated<Symmetric>>;
 template class FieldOf<Deduplicated<Vector>>;
 template class FieldOf<std::vector<PointExpansion>>;
 template class FieldOf<std::vector<Vector>>;
+template class FieldOf<small::Tiles>;
+template class FieldOf<CellPoints>;
+template class FieldOf<std::vector<OrdinaryPoint>>;
+template class FieldOf<std::vector<ViscousPoint>>;
 
 }  // namespace strut

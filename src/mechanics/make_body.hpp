@@ -11,4 +11,8 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
 // Memory of the points and bonds of this rank, bytes, for forecasts.
 double footprint(const Body& body);
 
+// Finds the points of a block on a lattice whose family differs from its stencil, because bonds of theirs have broken
+// or cross a crack.
+void set_off_stencil(const Domain& domain, MaterialBlock& block);
+
 }  // namespace strut

@@ -13,7 +13,7 @@
 #include "mechanics/damage_model.hpp"
 #include "mechanics/formulation/formulation.hpp"
 #include "mechanics/integration_points.hpp"
-#include "mechanics/stabilization/stabilization.hpp"
+#include "mechanics/stabilization.hpp"
 #include "topology/domain.hpp"
 
 namespace strut {
@@ -104,7 +104,7 @@ struct MaterialBlock {
 
   bool is_ordinary() const { return material.formulation == Formulation::ordinary; }
   bool is_quadratic() const { return material.formulation == Formulation::quadratic; }
-  // True if it has springs on this kind of residual (stabilization/residual.hpp).
+  // True if it has springs on this kind of residual (stabilization.hpp).
   bool has_springs(ResidualKind residual) const {
     return residual_of(material.stabilization) == residual && coefficient_of(material.stabilization) > 0;
   }
@@ -119,7 +119,7 @@ struct MaterialBlock {
   }
 };
 
-// Compiled once, in material_block.cpp.
+// Compiled once, in make_body.cpp.
 extern template class FieldOf<small::Tiles>;
 extern template class FieldOf<CellPoints>;
 extern template class FieldOf<std::vector<OrdinaryPoint>>;

@@ -2,12 +2,100 @@
 
 #include <set>
 
-#include "mechanics/image_forces.hpp"
+#include "mechanics/force_sum.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "topology/mirror_reactions.hpp"
 
 namespace strut {
 
 namespace {
+
+// The images in the family of a point that a predicate selects.
+template <class Picks>
+struct OfImages : bonds::NearPoint {
+  const Families& families;
+  const Picks& picks;
+
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    families.for_each(i, [&](int j) {
+      if (picks(j)) visit(j, 1.0);
+    });
+  }
+};
+
+Vector to_vector(const small::Vector3<double>& v) { return {v.c[0], v.c[1], v.c[2]}; }
+
+// The force density (N/m³) of some bonds of a point by all formulations; `own`: includes the point's own state.
+template <class Family, class Weight>
+Vector force_of(const Body& body, const Family& family, bool own, Weight weight) {
+  const Site* sites = body.domain.sites.data();
+  const ForceStates& states = body.force_states;
+  const int i = family.i;
+  Vector force = Vector::Zero();
+  if (!states.tensors.empty()) {
+    force += to_vector(bonds::far_force<true>(family, sites, states.tensors.data(), weight));
+    Vector moment = Vector::Zero(), pull = Vector::Zero();
+    bonds::over(family, sites, weight, [&](int j, double w, const auto& xi, double) {
+      moment += w * to_vector(xi);
+      pull += w * (body.current(j) - body.current(i));
+    });
+    if (own) force += bonds::tensor_of(states.tensors[i]) * moment + states.tensors[i].stiffness() * pull;
+  }
+  if (own && !states.gradients.empty()) {
+    for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) {
+      if (body.block_of(i).material.stabilization.index() != kind) return;
+      force += to_vector(bonds::residual<S>(kind, family, sites, states.gradients.data(), weight).force);
+    });
+  }
+  if (!states.scalars.empty()) {
+    force +=
+        to_vector(bonds::ordinary_force(family, sites, states.scalars.data(), weight, bonds::OfPlaces<Family>(family)));
+  }
+  if (!states.quadratics.empty()) {
+    const Eigen::Array4d* multipliers = body.fits->multipliers();
+    force += to_vector(bonds::quadratic_far_force(family, sites, multipliers, states.quadratics.data(), weight));
+    if (own && body.block_of(i).is_quadratic()) {
+      QuadraticFit fit;
+      bonds::over(family, sites, weight, [&](int j, double w, const auto& xi, double) {
+        const auto q = bonds::squares(xi);
+        fit.sums[0] += w;
+        for (int c = 0; c < 3; ++c) fit.sums[1 + c] += w * xi.c[c], fit.sums[10 + c] += w * multipliers[j][c];
+        for (int k = 0; k < 6; ++k) fit.sums[4 + k] += w * q[k];
+      });
+      force += bonds::quadratic_own_force(states.quadratics[i], fit);
+    }
+  }
+  return force;
+}
+
+// The owned points that `counts` selects and that are not in rigid motion: all, or those that moved in a substep.
+std::vector<int> moving_points(const Body& body, const std::vector<int>* moved, const auto& counts) {
+  std::vector<int> points;
+  const auto look_at = [&](int i) {
+    if (counts(i) && !body.block_of(i).in_rigid_motion) points.push_back(i);
+  };
+  if (moved) {
+    std::ranges::for_each(*moved, look_at);
+  } else {
+    for (int i = 0; i < body.owned(); ++i) look_at(i);
+  }
+  return points;
+}
+
+// The force of the images that `picks` selects on some points, N. Only points that are due at `level` act.
+template <class Picks>
+Vector image_force(const Body& body, const std::vector<int>& points, int level, const Picks& picks) {
+  const auto acts = [&](int j) { return picks(j) && body.is_due(j, level); };
+  Vector sum = Vector::Zero();
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for (const int i : points) {
+      const OfImages<decltype(acts)> family{{i}, body.domain.families, acts};
+      sum += body.domain.volume(i) * force_of(body, family, body.is_due(i, level), weight);
+    }
+  });
+  return sum;
+}
 
 // For each site; 0 for sites that are no images.
 std::vector<int> periods_above(const Domain& domain, const Period& period) {

@@ -31,6 +31,7 @@ constexpr std::int64_t most_samples = 50000;
 // A point at which the material around it is measured, as it is sent to other ranks.
 struct Sample {
   double place[3], spacing, volume, block;
+  Vector at() const { return {place[0], place[1], place[2]}; }
 };
 
 double reach_of(double spacing) { return reach_in_spacings * spacing; }
@@ -49,12 +50,6 @@ std::vector<Sample> own_samples(const Domain& domain) {
     samples.push_back({{X[0], X[1], X[2]}, cloud.spacings[i], domain.volume(i), static_cast<double>(block)});
   }
   return samples;
-}
-
-std::vector<Vector> places_of(const std::vector<Sample>& samples) {
-  std::vector<Vector> places;
-  for (const Sample& one : samples) places.emplace_back(one.place[0], one.place[1], one.place[2]);
-  return places;
 }
 
 // Adds for each block the material of its body around the samples that this rank has, times their volume over their
@@ -107,9 +102,7 @@ std::vector<double> thicknesses(const Domain& domain) {
   farthest = domain.communicator.max(farthest);
   Eigen::AlignedBox3d mine;
   for (int i = 0; i < domain.owned; ++i) mine.extend(domain.reference(i));
-  const std::vector<Vector> places = places_of(samples);
-  const auto others = from_nearby_ranks(mine, places, std::span<const Sample>(samples), farthest, domain.communicator);
-  samples.insert(samples.end(), others.begin(), others.end());
+  add_nearby(samples, mine, farthest, domain.communicator);
   add_shares(domain, samples, std::span(sums).subspan(found * blocks));
   domain.communicator.sum(sums);
   std::vector<double> thicknesses(blocks, 0);

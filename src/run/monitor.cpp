@@ -8,7 +8,6 @@
 #include "base/errors.hpp"
 #include "conditions/crossing.hpp"
 #include "contact/interpenetration.hpp"
-#include "contact/undeclared.hpp"
 
 namespace strut {
 

@@ -111,7 +111,7 @@ Where where(const std::vector<int>& points, const Body& body) {
 void at_corners(const Function& value, const Where& where, const std::function<void(const OfTime&)>& visit) {
   for (int corner = 0; corner < (value.depends_on_place() ? 8 : 1); ++corner) {
     const Vector X = where.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-    visit([&](double t) { return value.evaluate(X[0], X[1], X[2], t); });
+    visit([&](double t) { return value.evaluate(X, t); });
   }
 }
 

@@ -114,7 +114,7 @@ Times times_of(const deck::Solver& steps, const std::vector<double>& changes, in
 std::vector<double> targets(const Hold& hold, const Vector& X, const Times& times, bool summed) {
   std::vector<double> all(times.size(), 0);
   if (!hold.value) return all;
-  const auto at = [&](double t) { return hold.value->evaluate(X[0], X[1], X[2], t); };
+  const auto at = [&](double t) { return hold.value->evaluate(X, t); };
   const double before = summed && !hold.is_velocity ? at(times.front().from) : 0;
   double sum = 0;
   for (std::size_t k = 0; k < times.size(); ++k) {

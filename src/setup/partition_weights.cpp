@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "mechanics/cost.hpp"
+#include "mechanics/formulation/formulation.hpp"
 #include "setup/blocks.hpp"
 #include "setup/contact.hpp"
 #include "topology/bounding_box.hpp"

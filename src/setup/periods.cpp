@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "base/errors.hpp"
-#include "conditions/periodic_sides.hpp"
+#include "conditions/prototype.hpp"
 #include "setup/blocks.hpp"
 #include "topology/bounding_box.hpp"
 

@@ -114,7 +114,7 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
     if (!motion) continue;
     for (const int i : points[c]) {
       const Vector X = body.domain.reference(i);
-      const double u = motion->value.evaluate(X[0], X[1], X[2], t);
+      const double u = motion->value.evaluate(X, t);
       if (may_rest == MayRest::yes && std::abs(u) <= no_jump * body.domain.cloud.spacings[i]) continue;
       const auto is_far = [&](int c) {  // from where it is: after equilibria, no more where it was
         return std::abs(u - (body.domain.current(i) - X)[c]) > no_jump * body.domain.cloud.spacings[i];

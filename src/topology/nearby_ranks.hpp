@@ -48,4 +48,21 @@ std::vector<Record> from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<
   return {first, first + incoming.size() / width};
 }
 
+// The positions of records, which have one: at().
+template <class Record>
+std::vector<Vector> places_of(const std::vector<Record>& records) {
+  std::vector<Vector> places;
+  for (const Record& record : records) places.push_back(record.at());
+  return places;
+}
+
+// Collective. Adds to this rank's records those of other ranks within `reach` (m) of the box in which this rank looks
+// for them.
+template <class Record>
+void add_nearby(std::vector<Record>& records, const Eigen::AlignedBox3d& box, double reach,
+                const Communicator& communicator) {
+  const auto others = from_nearby_ranks(box, places_of(records), std::span<const Record>(records), reach, communicator);
+  records.insert(records.end(), others.begin(), others.end());
+}
+
 }  // namespace strut

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "materials/moved_stress.hpp"
 #include "materials/step_work.hpp"
 #include "materials/tangent.hpp"
 #include "point_driver.hpp"
@@ -80,7 +79,7 @@ TEST(PolymerFoam, AJumpOfTheStretchLeavesTheStress) {
   Tensor sheared = Tensor::Identity();
   sheared(0, 0) = 1.1, sheared(1, 1) = 1 / 1.1, sheared(1, 2) = 0.2;  // the volume, on which its moduli depend, stays
   const Symmetric next = stretch_of(to_tensor(point.stretch) * sheared);
-  move_stress(point.law, to_tensor(point.stretch), to_tensor(next), point.state);
+  point.law.move_stress(to_tensor(point.stretch), to_tensor(next), point.state);
   ASSERT_TRUE(point.advance(next));
   EXPECT_LT((point.stress - before).norm(), to_round_off * before.norm());
 }

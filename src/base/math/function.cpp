@@ -98,7 +98,7 @@ std::vector<std::string> functions_in_expressions() {
 }
 
 double finite_value(const Function& function, const Vector& X, double t) {
-  const double value = function.evaluate(X[0], X[1], X[2], t);
+  const double value = function.evaluate(X, t);
   if (!std::isfinite(value)) throw Error(function.describe(X[0], X[1], X[2], t, value));
   return value;
 }

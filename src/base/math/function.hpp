@@ -24,7 +24,9 @@ class Function {
   // x, y, z in m (reference position), t in s. The result may be infinite or NaN (log of a negative number): the first
   // such value is stored, shared by all copies. Thread-safe.
   double operator()(double x, double y, double z, double t) const;
+  double operator()(const Vector& X, double t) const { return (*this)(X[0], X[1], X[2], t); }
   double evaluate(double x, double y, double z, double t) const;  // the same, without storing such values
+  double evaluate(const Vector& X, double t) const { return evaluate(X[0], X[1], X[2], t); }
 
   // Its path in the deck, for errors: "Boundary Conditions > pull > Value".
   void set_path(std::string path) { path_ = std::move(path); }

@@ -4,7 +4,7 @@
 
 #include "base/numbers.hpp"
 #include "deck/problems.hpp"
-#include "mechanics/breaks_at_rest.hpp"
+#include "mechanics/hindered_breaks.hpp"
 
 namespace strut::deck {
 

@@ -10,7 +10,7 @@
 #include "deck/problems.hpp"
 #include "materials/laws.hpp"
 #include "mechanics/formulation/formulation.hpp"
-#include "mechanics/stabilization/stabilization.hpp"
+#include "mechanics/stabilization.hpp"
 
 namespace strut::deck {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "mechanics/cost.hpp"
+#include "mechanics/formulation/formulation.hpp"
 #include "mechanics/frequency_bound.hpp"
 #include "topology/parallel_for.hpp"
 

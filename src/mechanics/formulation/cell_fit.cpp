@@ -136,4 +136,74 @@ Vector weight_of_bond(const QuadraticFit& fit, double volume, double w, const Ve
   return w * g;
 }
 
+CellWeights lattice_cell(double spacing, const std::vector<FitBond>& family) {
+  const double volume = spacing * spacing * spacing;
+  QuadraticFit fit;
+  set_cell(cube_of(volume), fit);
+  const auto over = [&](const auto& visit) {
+    for (const FitBond& bond : family) visit(bond.weight, volume, bond.xi);
+  };
+  CellWeights weights;
+  if (!fit_motion(sums_of_family(spacing, volume, over), spacing, volume, least_penalty, fit)) return weights;
+  std::array<Vector, 4> own;
+  own.fill(Vector::Zero());
+  for (const FitBond& bond : family) {
+    std::array<Vector, 4>& of_bond = weights.bonds.emplace_back();
+    for (int q = 0; q < 4; ++q) {
+      of_bond[q] = weight_of_bond(fit, volume, bond.weight, bond.xi, Eigen::Array4d::Zero(), place_of(fit, q));
+      weights.steepness += of_bond[q].squaredNorm() / 4;
+      own[q] -= of_bond[q];
+    }
+  }
+  for (const Vector& g : own) weights.steepness += g.squaredNorm() / 4;
+  return weights;
+}
+
+namespace {
+
+// The penalty on the second gradient of μ in its trend over a family, relative to the weight of the family.
+constexpr double trend_penalty = 0.01;
+
+using Basis10 = Eigen::Matrix<double, 10, 1>;
+
+Basis10 basis_of_trend(const Vector& xi, double h) {
+  Basis10 b;
+  b << basis(xi, h), 1;
+  return b;
+}
+
+}  // namespace
+
+Matrix10 inverse_moments(const Body& body, int i) {
+  const double h = body.domain.cloud.spacings[i];
+  Matrix10 N = Matrix10::Zero();
+  N(9, 9) = body.domain.volume(i);
+  over_family(body, i, [&](int, double w, const Vector& xi) {
+    const Basis10 b = basis_of_trend(xi, h);
+    N += w * b * b.transpose();
+  });
+  N.diagonal().segment<3>(3).array() += trend_penalty * N(9, 9);
+  N.diagonal().segment<3>(6).array() += 2 * trend_penalty * N(9, 9);
+  return N.ldlt().solve(Matrix10::Identity());
+}
+
+Trend trend(const Body& body, int i, const Eigen::Array4d* mu, const Matrix10& inverse_moments) {
+  const double h = body.domain.cloud.spacings[i];
+  Eigen::Matrix<double, 10, 3> sums = Eigen::Matrix<double, 10, 3>::Zero();
+  sums.row(9) = body.domain.volume(i) * mu[i].head<3>().matrix().transpose();
+  over_family(body, i, [&](int j, double w, const Vector& xi) {
+    sums += basis_of_trend(xi, h) * (w * mu[j].head<3>().matrix().transpose());
+  });
+  const Eigen::Matrix<double, 10, 3> fit = inverse_moments * sums;
+  return {fit.row(9).transpose(), fit.topRows<3>().transpose() / h, fit.middleRows<6>(3).transpose() / (h * h)};
+}
+
+void add_correction(const Trend& trend, double volume, QuadraticFit& fit) {
+  for (int b = 0; b < 3; ++b) {
+    fit.center[b] = trend.c[b];
+    for (int c = 0; c < 3; ++c) fit.linear[3 * c + b] -= volume * trend.C(b, c);
+    for (int k = 0; k < 6; ++k) fit.bent[3 * k + b] -= volume * trend.Q(b, k);
+  }
+}
+
 }  // namespace strut

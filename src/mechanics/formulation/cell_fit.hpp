@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <vector>
 
 #include "mechanics/body.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
@@ -58,5 +60,43 @@ bool fit_motion(const Body& body, int i, double least, QuadraticFit& fit);
 // Derivative of F, at a position in the cell of i, by y_j as a vector, 1/m: ∂F_rb/∂y_jr. `w`: ω V_j; `mu`: μ_j.
 Vector weight_of_bond(const QuadraticFit& fit, double volume, double w, const Vector& xi, const Eigen::Array4d& mu,
                       const Vector& place);
+
+// ---- The cell of a point on a lattice, for any set of bonds ----
+
+struct FitBond {
+  Vector xi;      // m
+  double weight;  // ω V, m³
+};
+
+// Weights of the far ends of a point's bonds in F at the integration points of its cell, ∂F_rb/∂y_jr, 1/m; and its
+// steepness times its volume, 1/m². No bonds if the point carries no stress.
+struct CellWeights {
+  std::vector<std::array<Vector, 4>> bonds;
+  double steepness = 0;
+};
+
+// The weights of a cubic cell of edge `spacing` (m), without correction at surfaces.
+CellWeights lattice_cell(double spacing, const std::vector<FitBond>& family);
+
+// ---- The trend of the correction μ over a family ----
+
+// The function c + C ξ + Q q, fitted to values at the family and at the point itself.
+struct Trend {
+  Vector c = Vector::Zero();
+  Tensor C = Tensor::Zero();
+  Eigen::Matrix<double, 3, 6> Q = Eigen::Matrix<double, 3, 6>::Zero();
+};
+
+// Moments of (ξ, q, 1), in spacings.
+using Matrix10 = Eigen::Matrix<double, 10, 10>;
+
+// The inverse of the moments over the family and the point.
+Matrix10 inverse_moments(const Body& body, int i);
+
+// `mu`: values at owned points and ghosts.
+Trend trend(const Body& body, int i, const Eigen::Array4d* mu, const Matrix10& inverse_moments);
+
+// Adds V (μ_j − c − C ξ − Q q) to the weight of a bond in F; V: m³.
+void add_correction(const Trend& trend, double volume, QuadraticFit& fit);
 
 }  // namespace strut

@@ -1,9 +1,7 @@
-#include "mechanics/formulation/consistency_correction.hpp"
-
 #include <Eigen/Cholesky>
 
 #include "mechanics/formulation/cell_fit.hpp"
-#include "mechanics/formulation/trend.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/over_family.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 #include "mechanics/reflected.hpp"

@@ -1,7 +1,6 @@
 // Correspondence: from the positions of the points to their force states, by F, rotation, law and first Piola–Kirchhoff
 // stress.
-#include "mechanics/formulation/correspondence.hpp"
-
+#include "mechanics/formulation/stress_pass.hpp"
 #include "mechanics/formulation/stress_update.hpp"
 #include "mechanics/kernels/prefetch.hpp"
 

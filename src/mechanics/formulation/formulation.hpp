@@ -14,4 +14,8 @@ enum class Influence { one, linear_decay, cubic_decay };
 //   points of the cell, and these the force of each bond (quadratic_fit.hpp)
 enum class Formulation { correspondence, ordinary, quadratic };
 
+// Measured cost of a step of a point by quadratic correspondence, relative to a point by another formulation
+// (docs/decisions.md, Cost of subcycling), for the partition weights and for the choice of substeps.
+constexpr double cost_of_quadratic = 4;
+
 }  // namespace strut

@@ -1,10 +1,9 @@
 // Ordinary points: from the positions to the force state of each, t = ω (a |ξ| + b e), and an F for output.
-#include "mechanics/formulation/ordinary.hpp"
-
 #include <cmath>
 
 #include "base/math/rotation.hpp"
 #include "mechanics/energies.hpp"
+#include "mechanics/formulation/stress_pass.hpp"
 #include "mechanics/kernels/ordinary_bonds.hpp"
 #include "mechanics/steepness.hpp"
 

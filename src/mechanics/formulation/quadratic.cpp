@@ -1,12 +1,11 @@
 // Quadratic correspondence: from the positions of the points to the states of their bonds, by F, rotation, law and
 // first Piola–Kirchhoff stress at the four integration points of each cell.
-#include "mechanics/formulation/quadratic.hpp"
-
 #include <array>
 
 #include "mechanics/formulation/flow.hpp"
 #include "mechanics/formulation/quadratic_cell.hpp"
 #include "mechanics/formulation/shared_volume.hpp"
+#include "mechanics/formulation/stress_pass.hpp"
 #include "mechanics/formulation/stress_update.hpp"
 
 namespace strut {

@@ -66,4 +66,8 @@ class QuadraticFits {
   std::vector<Eigen::Array4d> multipliers_;
 };
 
+// Collective. The correction by which the forces of a uniform stress equal its tractions on the surface: finds μ of all
+// points whose surfaces are known, corrects their fits by the trend of μ, and completes them.
+void make_consistent(Body& body, QuadraticFits& fits);
+
 }  // namespace strut

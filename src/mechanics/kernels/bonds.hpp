@@ -21,7 +21,6 @@
 
 #include "base/math/small_tensors.hpp"
 #include "mechanics/body.hpp"
-#include "mechanics/kernels/bond_records.hpp"
 
 namespace strut::bonds {
 

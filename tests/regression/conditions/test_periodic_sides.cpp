@@ -5,7 +5,7 @@
 #include <array>
 #include <map>
 
-#include "contact/undeclared.hpp"
+#include "contact/interpenetration.hpp"
 #include "regression/bodies.hpp"
 #include "regression/checkpoints.hpp"
 #include "run/simulation.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "conditions/prescribed_temperature.hpp"
+#include "conditions/prototype.hpp"
 #include "integrators/explicit/central_difference.hpp"
 #include "verification/each_formulation.hpp"
 #include "verification/loading.hpp"
