@@ -1,12 +1,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <span>
 #include <sstream>
 
 #include "advice/checks.hpp"
 #include "base/parallel/gather_scatter.hpp"
+#include "base/text.hpp"
 #include "setup/found_points.hpp"
 #include "topology/pieces.hpp"
 
@@ -200,10 +202,7 @@ std::string text_of(const Vector& v) {
   for (int c = 0; c < 3; ++c) {
     if (std::abs(v[c]) > 1 - 1e-6) return {"xyz"[c]};
   }
-  std::ostringstream text;
-  text.precision(3);
-  text << "(" << v[0] << ", " << v[1] << ", " << v[2] << ")";
-  return text.str();
+  return text_of(std::setprecision(3), "(", v[0], ", ", v[1], ", ", v[2], ")");
 }
 
 // The directions in which it can translate freely, of unit length.

@@ -1,12 +1,12 @@
 #include "deck/deck.hpp"
 
 #include <fstream>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/numbers.hpp"
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
+#include "base/text.hpp"
 #include "deck/check.hpp"
 #include "deck/peridigm/peridigm.hpp"
 #include "deck/sections/inertia.hpp"
@@ -185,9 +185,7 @@ std::string contents(const fs::path& file) {
     throw Error(file.string() + ": the deck has " + std::to_string(fs::file_size(file)) + " bytes, expected at most " +
                 std::to_string(largest_deck));
   }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return std::string(without_mark(text.str()));
+  return std::string(without_mark(text_of(stream.rdbuf())));
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include <csignal>
 #include <iostream>
-#include <sstream>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "base/timing.hpp"
 #include "deck/deck.hpp"
 #include "output/variables.hpp"
@@ -288,9 +288,7 @@ void Run::Parts::hand_over() {
   report();
   const Ledger before = equilibria->ledger();
   deck = set_up_next(deck, equilibria->conditions(), equilibria->take_contact(), equilibria->take_fracture(), *scene);
-  std::ostringstream from;
-  from << "\nSolver 2: explicit steps from t = " << deck.solver.initial_time << " s\n" << scene->warnings;
-  say(communicator, from.str());
+  say(communicator, text_of("\nSolver 2: explicit steps from t = ", deck.solver.initial_time, " s\n", scene->warnings));
   Snapshot kept;
   Archive saved = Archive::saving_to(kept);
   writers->serialize(saved, number_of_steps(), time());
