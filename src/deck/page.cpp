@@ -9,7 +9,6 @@
 #include "deck/deck.hpp"
 #include "deck/problems.hpp"
 #include "deck/schema.hpp"
-#include "deck/whole.hpp"
 
 namespace strut::deck {
 

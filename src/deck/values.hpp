@@ -134,4 +134,19 @@ const Entry* chosen_of(const std::vector<Entry>& entries, const Values& values) 
   return nullptr;
 }
 
+// A section whose key "Type" selects an entry of such a table.
+// The first entry is the default.
+template <class Entry>
+Section one_of(const std::string& name, const std::string& meaning, const std::vector<Entry>& entries) {
+  Key type = {.name = "Type", .fallback = entries.front().schema.name, .meaning = "Form."};
+  return with_cases({.name = name, .meaning = meaning}, std::move(type), schemas_of(entries));
+}
+
+// The object that the selected entry makes; that of the first entry if the selection itself is wrong.
+template <class Entry>
+auto make_one_of(const std::vector<Entry>& entries, const Values& values) {
+  const Entry* entry = chosen_of(entries, values);
+  return (entry ? *entry : entries.front()).make(values);
+}
+
 }  // namespace strut::deck

@@ -8,7 +8,7 @@
 
 #include "base/archive.hpp"
 #include "base/parallel/communicator.hpp"
-#include "deck/sections/history.hpp"
+#include "deck/sections/output.hpp"
 #include "output/observables.hpp"
 
 namespace strut {

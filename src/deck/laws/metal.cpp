@@ -2,10 +2,8 @@
 #include <sstream>
 
 #include "deck/laws/constants.hpp"
-#include "deck/laws/each_law.hpp"
 #include "deck/laws/flow_stress.hpp"
-#include "deck/laws/one_of.hpp"
-#include "deck/laws/thermal_flow.hpp"
+#include "deck/laws/laws.hpp"
 
 namespace strut::deck {
 
