@@ -125,6 +125,13 @@ class Values {
   std::vector<Values> sections_;
 };
 
+// One case of a selector: its keys and sections, and what it makes of their values.
+template <class Made, class... More>
+struct Case {
+  Section schema;  // named by the values of the selector
+  Made (*make)(const Values& values, More... more);
+};
+
 // The entry of a table of cases (schemas_of) that the selector names; null if it names none.
 template <class Entry>
 const Entry* chosen_of(const std::vector<Entry>& entries, const Values& values) {
@@ -143,10 +150,10 @@ Section one_of(const std::string& name, const std::string& meaning, const std::v
 }
 
 // The object that the selected entry makes; that of the first entry if the selection itself is wrong.
-template <class Entry>
-auto make_one_of(const std::vector<Entry>& entries, const Values& values) {
-  const Entry* entry = chosen_of(entries, values);
-  return (entry ? *entry : entries.front()).make(values);
+template <class Made, class... More>
+Made make_one_of(const std::vector<Case<Made, More...>>& entries, const Values& values, More... more) {
+  const Case<Made, More...>* entry = chosen_of(entries, values);
+  return (entry ? *entry : entries.front()).make(values, more...);
 }
 
 }  // namespace strut::deck

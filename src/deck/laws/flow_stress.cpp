@@ -13,11 +13,6 @@ namespace {
 
 using namespace materials;
 
-struct HardeningEntry {
-  Section schema;  // named by the values of "Type"
-  Hardening (*make)(const Values& hardening);
-};
-
 const char* const table_name = "Table";
 
 namespace linear {
@@ -43,8 +38,8 @@ namespace needleman {
 const RealKey softening({.name = "Softening Strain", .range = positive, .meaning = "ε̄₁."});
 }  // namespace needleman
 
-const std::vector<HardeningEntry>& hardenings() {
-  static const std::vector<HardeningEntry> entries = {
+const std::vector<Case<Hardening>>& hardenings() {
+  static const std::vector<Case<Hardening>> entries = {
       {{.name = "None", .meaning = "h = σ_y."}, [](const Values&) -> Hardening { return NoHardening{}; }},
       {{.name = "Linear", .meaning = "h = σ_y + H ε̄.", .keys = {linear::modulus}},
        [](const Values& v) -> Hardening { return LinearHardening{.modulus = v[linear::modulus]}; }},
@@ -78,18 +73,13 @@ const std::vector<HardeningEntry>& hardenings() {
   return entries;
 }
 
-struct RateEntry {
-  Section schema;
-  Rate (*make)(const Values& rate);
-};
-
 // Keys of both rate factors.
 const RealKey reference_rate({.name = "Reference Rate", .unit = "1/s", .range = positive, .meaning = "ε̇₀."});
 const RealKey rate_exponent({.name = "Exponent", .range = not_negative, .meaning = "M."});
 const RealKey rate_coefficient({.name = "Coefficient", .range = not_negative, .meaning = "C."});
 
-const std::vector<RateEntry>& rates() {
-  static const std::vector<RateEntry> entries = {
+const std::vector<Case<Rate>>& rates() {
+  static const std::vector<Case<Rate>> entries = {
       {{.name = "None", .meaning = "r = 1."}, [](const Values&) -> Rate { return NoRate{}; }},
       {{.name = "Power Law", .meaning = "r = (1 + ε̇/ε̇₀)^M.", .keys = {reference_rate, rate_exponent}},
        [](const Values& v) -> Rate {
@@ -155,13 +145,8 @@ const RealKey melting({.name = "Melting Temperature", .unit = "K", .range = posi
 const RealKey exponent({.name = "Exponent", .range = positive, .meaning = "m."});
 }  // namespace softening
 
-struct SofteningEntry {
-  Section schema;
-  Softening (*make)(const Values& values);
-};
-
-const std::vector<SofteningEntry>& softenings() {
-  static const std::vector<SofteningEntry> entries = {
+const std::vector<Case<Softening>>& softenings() {
+  static const std::vector<Case<Softening>> entries = {
       {{.name = "None", .meaning = "θ = 1."}, [](const Values&) -> Softening { return NoSoftening{}; }},
       {{.name = "Johnson-Cook",
         .meaning = "θ = 1 − T*^m with T* = (T − T_r)/(T_m − T_r), between 0 and 1.",
@@ -265,14 +250,9 @@ void check_threshold(const Values& v, Problems& problems) {
 
 // ---- All ------------------------------------------------------------------------------------------------------------
 
-struct FlowEntry {
-  Section schema;
-  ThermalFlow (*make)(const Values& values);
-};
-
-const std::vector<FlowEntry>& flows() {
+const std::vector<Case<ThermalFlow>>& flows() {
   using namespace threshold;
-  static const std::vector<FlowEntry> entries = {
+  static const std::vector<Case<ThermalFlow>> entries = {
       {{.name = "Hardening and Rate",
         .meaning = "σ̄ = h(ε̄) r(ε̇) θ(T), by Yield Stress and the sections Hardening, Rate and Softening."},
        [](const Values&) -> ThermalFlow { return SoftenedFlow{}; }},
