@@ -14,45 +14,26 @@ namespace {
 const std::vector<std::string> types = {"bool",  "int",  "double",    "string", "Array(int)",   "Array(double)",
                                         "short", "long", "long long", "float",  "Array(float)", "Array(string)"};
 
-bool is_integer_type(const std::string& type) {
-  return type == "int" || type == "short" || type == "long" || type == "long long";
-}
-
-bool is_real_type(const std::string& type) { return type == "double" || type == "float"; }
-
-bool is_array_of_numbers(const std::string& type) {
-  return type == "Array(int)" || type == "Array(double)" || type == "Array(float)";
+Numbers numbers_of(const std::string& type) {
+  if (type == "int" || type == "short" || type == "long" || type == "long long") return Numbers::integer;
+  if (type == "double" || type == "float") return Numbers::real;
+  const bool is_array = type == "Array(int)" || type == "Array(double)" || type == "Array(float)";
+  return is_array ? Numbers::several : Numbers::none;
 }
 
 // True if the value is of the type that the deck states with it.
 bool conforms(const Parameter& parameter) {
+  const Numbers numbers = numbers_of(parameter.type);
   if (parameter.type == "bool") return to_boolean(parameter.value).has_value();
-  if (is_integer_type(parameter.type)) return to_integer(parameter.value).has_value();
-  if (is_real_type(parameter.type)) return to_real(parameter.value).has_value();
-  if (is_array_of_numbers(parameter.type)) return to_reals(parameter.value).has_value();
-  return true;
+  if (numbers == Numbers::integer) return to_integer(parameter.value).has_value();
+  if (numbers == Numbers::real) return to_real(parameter.value).has_value();
+  return numbers != Numbers::several || to_reals(parameter.value).has_value();
 }
 
 bool suits(const std::string& type, Kind kind) {
   if (type == "string") return true;
-  switch (kind) {
-    case Kind::boolean:
-      return type == "bool";
-    case Kind::integer:
-      return is_integer_type(type);
-    case Kind::real:
-    case Kind::expression:
-      return is_integer_type(type) || is_real_type(type);
-    case Kind::reals:
-    case Kind::vector:
-      return is_integer_type(type) || is_real_type(type) || is_array_of_numbers(type);
-    case Kind::text:
-    case Kind::choice:
-    case Kind::axes:
-    case Kind::names:
-      return false;
-  }
-  return false;
+  if (type == "bool") return kind == Kind::boolean;
+  return numbers_of(type) != Numbers::none && numbers_of(type) <= facts_of(kind).numbers;
 }
 
 [[noreturn]] void refuse(const Parameter& parameter, const Key& key, const std::string& because = "") {
