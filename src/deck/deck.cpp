@@ -13,6 +13,7 @@
 #include "deck/sections/combinations.hpp"
 #include "deck/sections/materials.hpp"
 #include "deck/sections/node_sets.hpp"
+#include "deck/sections/several_sections.hpp"
 #include "deck/yaml.hpp"
 
 namespace strut::deck {
