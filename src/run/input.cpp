@@ -9,6 +9,7 @@
 #include "checkpoint/checkpoint.hpp"
 #include "io/file_lock.hpp"
 #include "output/variables.hpp"
+#include "output/writers.hpp"
 #include "run/run_control.hpp"
 #include "setup/setup.hpp"
 
