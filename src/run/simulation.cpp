@@ -6,7 +6,7 @@
 #include "base/errors.hpp"
 #include "base/text.hpp"
 #include "base/timing.hpp"
-#include "deck/deck.hpp"
+#include "checkpoint/checkpoint.hpp"
 #include "output/variables.hpp"
 #include "run/balance.hpp"
 #include "run/input.hpp"
