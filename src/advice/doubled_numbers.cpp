@@ -2,11 +2,11 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <sstream>
 #include <vector>
 
 #include "advice/checks.hpp"
 #include "base/parallel/gather_scatter.hpp"
+#include "base/text.hpp"
 
 namespace strut {
 
@@ -41,11 +41,9 @@ std::string doubled_numbers(const Situation& situation) {
   }
   doubled = domain.communicator.sum(doubled);
   if (doubled == 0) return "";
-  std::ostringstream text;
-  text << "WARNING: Discretization > Input Mesh File: its map of numbers gives the number "
-       << static_cast<std::int64_t>(domain.communicator.min(least)) << " to more than one " << word(domain.cloud.at)
-       << ", and so on, " << doubled << " times in all: results and messages name them alike; expected each once\n";
-  return text.str();
+  return text_of("WARNING: Discretization > Input Mesh File: its map of numbers gives the number ",
+                 static_cast<std::int64_t>(domain.communicator.min(least)), " to more than one ", word(domain.cloud.at),
+                 ", and so on, ", doubled, " times in all: results and messages name them alike; expected each once\n");
 }
 
 }  // namespace strut

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "advice/checks.hpp"
+#include "base/text.hpp"
 #include "setup/blocks.hpp"
 #include "topology/bounding_box.hpp"
 
@@ -211,11 +212,9 @@ std::string two_temperature_scales(const MaterialBlock& block, const materials::
   if (std::abs(failure->room - softening->reference) <= differs * span &&
       std::abs(failure->melting - softening->melting) <= differs * span)
     return "";
-  std::ostringstream text;
-  text << "WARNING: block '" << block.name << "' softens between a Reference Temperature of " << softening->reference
-       << " K and a Melting Temperature of " << softening->melting << " K, and D5 of its Damage Model acts between "
-       << failure->room << " and " << failure->melting << " K: they are of one metal; expected the same\n";
-  return text.str();
+  return text_of("WARNING: block '", block.name, "' softens between a Reference Temperature of ", softening->reference,
+                 " K and a Melting Temperature of ", softening->melting, " K, and D5 of its Damage Model acts between ",
+                 failure->room, " and ", failure->melting, " K: they are of one metal; expected the same\n");
 }
 
 double flow_stress_at(materials::ThermalJ2 metal, double temperature) {

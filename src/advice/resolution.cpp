@@ -1,9 +1,11 @@
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <set>
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "base/text.hpp"
 #include "mechanics/expected_error.hpp"
 #include "mechanics/steepness.hpp"
 #include "mechanics/thin_members.hpp"
@@ -18,12 +20,11 @@ std::string stiffness_of_thin(Influence influence, double horizon, double thickn
   constexpr double worth_saying = 0.1;
   const double found = tension_stiffness_found(influence, horizon, thickness);
   if (std::abs(found - 1) < worth_saying) return "";
-  std::ostringstream text;
-  text.precision(2);
-  text << "bars so thick were found " << 100 * std::abs(found - 1) << " % too " << (found > 1 ? "stiff" : "soft")
-       << " in tension by the material model 'Elastic' (along the axes of a lattice); 'Elastic Correspondence' keeps "
-          "Young's modulus";
-  return text.str();
+  return text_of(
+      std::setprecision(2), "bars so thick were found ", 100 * std::abs(found - 1), " % too ",
+      found > 1 ? "stiff" : "soft",
+      " in tension by the material model 'Elastic' (along the axes of a lattice); 'Elastic Correspondence' keeps "
+      "Young's modulus");
 }
 
 // The warning for correspondence.
@@ -31,11 +32,9 @@ std::string bending_of_thin(double horizon, double thickness) {
   constexpr double worth_saying = 0.9;
   const double kept = bending_stiffness_kept(horizon, thickness);
   if (kept >= worth_saying) return "";
-  std::ostringstream text;
-  text.precision(2);
-  text << "so thin they keep about " << 100 * kept << " % of their bending stiffness; by Formulation 'Quadratic "
-       << "Correspondence' expect " << expected_error_text(thickness, "");
-  return text.str();
+  return text_of(std::setprecision(2), "so thin they keep about ", 100 * kept,
+                 " % of their bending stiffness; by Formulation 'Quadratic Correspondence' expect ",
+                 expected_error_text(thickness, ""));
 }
 
 // The warning for quadratic correspondence.

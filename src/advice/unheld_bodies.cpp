@@ -1,12 +1,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <span>
 #include <sstream>
 
 #include "advice/checks.hpp"
 #include "base/parallel/gather_scatter.hpp"
+#include "base/text.hpp"
 #include "setup/found_points.hpp"
 #include "topology/pieces.hpp"
 
@@ -196,14 +198,11 @@ bool may_be_pushed(const Piece& piece, const std::vector<int>& counts,
   });
 }
 
-std::string text_of(const Vector& v) {
+std::string along_text(const Vector& v) {
   for (int c = 0; c < 3; ++c) {
     if (std::abs(v[c]) > 1 - 1e-6) return {"xyz"[c]};
   }
-  std::ostringstream text;
-  text.precision(3);
-  text << "(" << v[0] << ", " << v[1] << ", " << v[2] << ")";
-  return text.str();
+  return text_of(std::setprecision(3), "(", v[0], ", ", v[1], ", ", v[2], ")");
 }
 
 // The directions in which it can translate freely, of unit length.
@@ -226,8 +225,8 @@ bool is_free(const Holds& holds) {
 std::string freedom(const Holds& holds) {
   const std::vector<Vector> free = free_directions(holds);
   if (free.size() == 3) return "it";
-  if (free.size() == 2) return "it but along " + text_of(free[0].cross(free[1]).normalized());
-  if (free.size() == 1) return "it along " + text_of(free[0]);
+  if (free.size() == 2) return "it but along " + along_text(free[0].cross(free[1]).normalized());
+  if (free.size() == 1) return "it along " + along_text(free[0]);
   return is_free(holds) ? "it against turning" : "";
 }
 

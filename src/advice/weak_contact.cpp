@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numbers>
 #include <sstream>
 #include <type_traits>
@@ -7,6 +8,7 @@
 
 #include "advice/checks.hpp"
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "deck/problems.hpp"
 
 namespace strut {
@@ -108,10 +110,8 @@ double impact_pressure(const Side& a, const Side& b, double speed) {
 std::string gap(const contact::Law& law, const Side& a, const Side& b) {
   const double spacing = std::min(a.spacing, b.spacing), radius = contact::radius_of(law);
   if (std::holds_alternative<contact::SurfaceLaw>(law) || radius >= widest_gap * spacing) return "";
-  std::ostringstream text;
-  text << "Contact Radius " << radius << " m is less than 0.71 of the spacing, " << spacing
-       << " m, so that points slip between those of the other body; a spacing is a good choice";
-  return text.str();
+  return text_of("Contact Radius ", radius, " m is less than 0.71 of the spacing, ", spacing,
+                 " m, so that points slip between those of the other body; a spacing is a good choice");
 }
 
 std::string of_blocks(const Side& a, const Side& b) { return "contact of blocks " + a.name + " and " + b.name; }
@@ -121,21 +121,16 @@ std::string far_reach(const contact::Law& law, const Side& a, const Side& b) {
   constexpr double far = 3;
   const double spacing = std::max(a.spacing, b.spacing), radius = contact::radius_of(law);
   if (std::holds_alternative<contact::SurfaceLaw>(law) || radius <= far * spacing) return "";
-  std::ostringstream text;
-  text << of_blocks(a, b) << ": Contact Radius " << radius << " m is " << radius / spacing << " spacings of " << spacing
-       << " m: bodies push each other from so far; a spacing is a good choice (is it in m?)";
-  return text.str();
+  return text_of(of_blocks(a, b), ": Contact Radius ", radius, " m is ", radius / spacing, " spacings of ", spacing,
+                 " m: bodies push each other from so far; a spacing is a good choice (is it in m?)");
 }
 
 std::string remedy(const contact::Law& law, const Side& a, const Side& b, double times) {
   const std::string slips = gap(law, a, b);
   if (!slips.empty()) return slips;
-  std::ostringstream text;
-  text.precision(2);
-  text << "to bear the pressure of an elastic impact its "
-       << (std::holds_alternative<contact::SurfaceLaw>(law) ? "Stiffness Factor" : "spring constant") << " should be "
-       << times << " times as large";
-  return text.str();
+  return text_of(std::setprecision(2), "to bear the pressure of an elastic impact its ",
+                 std::holds_alternative<contact::SurfaceLaw>(law) ? "Stiffness Factor" : "spring constant",
+                 " should be ", times, " times as large");
 }
 
 // Describes a weak contact; `surely`: it certainly cannot withstand the impact.
@@ -172,13 +167,11 @@ double relative_stiffness(const contact::PairLaw& law, const Side& a, const Side
 std::string stiffness_of_first_touches(const contact::SurfaceLaw& law, const Side& a, const Side& b) {
   constexpr double much = 1;
   if (law.factor < much) return "";
-  std::ostringstream text;
-  text
-      << of_blocks(a, b) << " has a Stiffness Factor of " << law.factor
-      << ": the step does not foresee how stiff a touch of surfaces will be, so that each first touch may cost or give "
-         "some percent of the energy of the impact (1 % with 1, the more the stiffer); expected 0.25, or what is below "
-         "1";
-  return text.str();
+  return text_of(
+      of_blocks(a, b), " has a Stiffness Factor of ", law.factor,
+      ": the step does not foresee how stiff a touch of surfaces will be, so that each first touch may cost or give "
+      "some percent of the energy of the impact (1 % with 1, the more the stiffer); expected 0.25, or what is below "
+      "1");
 }
 
 // A warning if contact is so stiff that points vibrate at its frequency instead of the bodies': a touch then lasts only
@@ -201,13 +194,10 @@ std::string stiffness_of_short_touches(const contact::Law& law, const Side& a, c
         return text.str().empty() ? "" : "; as stiff as that block is " + text.str() + " Pa";
       },
       *of_points);
-  std::ostringstream text;
-  text.precision(2);
-  text
-      << of_blocks(a, b) << " is " << ratio
-      << " times as stiff as the stiffer block: the time step falls with it, and a touch lasts a few steps only, which "
-      << "may cost or give as much energy as the points had" << wanted;
-  return text.str();
+  return text_of(std::setprecision(2), of_blocks(a, b), " is ", ratio,
+                 " times as stiff as the stiffer block: the time step falls with it, and a touch lasts a few steps "
+                 "only, which may cost or give as much energy as the points had",
+                 wanted);
 }
 
 // True if a tool or a third block that either one may touch could stop them.
@@ -239,13 +229,11 @@ std::string weakness_when_pressed(const contact::Law& law, const Side& a, const 
   const double bears = std::visit([&](const auto& one) { return strength(one, a, b); }, law).pressure;
   const double yields = std::min(a.yields, b.yields);
   if (!std::isfinite(yields) || bears >= yields) return "";
-  std::ostringstream text;
-  text.precision(3);
-  text << of_blocks(a, b) << " bears " << bears << " Pa before points pass each other, less than the " << yields
-       << " Pa at which the material yields: parts that are crushed onto each other pass through each other; its "
-       << (std::holds_alternative<contact::SurfaceLaw>(law) ? "Stiffness Factor" : "spring constant") << " should be "
-       << yields / bears << " times as large";
-  return text.str();
+  return text_of(
+      std::setprecision(3), of_blocks(a, b), " bears ", bears, " Pa before points pass each other, less than the ",
+      yields, " Pa at which the material yields: parts that are crushed onto each other pass through each other; its ",
+      std::holds_alternative<contact::SurfaceLaw>(law) ? "Stiffness Factor" : "spring constant", " should be ",
+      yields / bears, " times as large");
 }
 
 }  // namespace

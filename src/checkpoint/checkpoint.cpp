@@ -1,10 +1,10 @@
 #include "checkpoint/checkpoint.hpp"
 
 #include <iostream>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
+#include "base/text.hpp"
 #include "base/timing.hpp"
 #include "deck/changes.hpp"
 #include "deck/problems.hpp"
@@ -23,10 +23,8 @@ bool check_changes(const deck::Deck& deck, const Communicator& communicator) {
   deck::Problems problems;
   for (const std::string& one : changes.refused) problems.add(one);
   if (deck.solver.final_time < facts.time) {
-    std::ostringstream passed;
-    passed << "'" << deck.solver.final_time << "' has passed: the checkpoint is of t = " << facts.time
-           << " s; expected that or a later one";
-    problems.add("Solver > Final Time", passed.str());
+    problems.add("Solver > Final Time", text_of("'", deck.solver.final_time, "' has passed: the checkpoint is of t = ",
+                                                facts.time, " s; expected that or a later one"));
   }
   raise_together(communicator,
                  problems.lines().empty()
@@ -116,12 +114,9 @@ std::string Checkpoint::kept() const {
 }
 
 std::string Checkpoint::hint() const {
-  std::ostringstream text;
-  if (written_) {
-    text << "; 'strut --continue " << deck_name_ << "' goes on from t = " << last_time_ << " s ("
-         << settings_.file.string() << ")";
-  }
-  return text.str();
+  if (!written_) return "";
+  return text_of("; 'strut --continue ", deck_name_, "' goes on from t = ", last_time_, " s (", settings_.file.string(),
+                 ")");
 }
 
 }  // namespace strut

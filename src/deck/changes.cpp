@@ -7,8 +7,8 @@
 
 #include "base/errors.hpp"
 #include "deck/check.hpp"
+#include "deck/deck.hpp"
 #include "deck/peridigm/peridigm.hpp"
-#include "deck/whole.hpp"
 #include "deck/yaml.hpp"
 
 namespace strut::deck {

@@ -1,15 +1,144 @@
 #include "deck/check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/errors.hpp"
 #include "base/numbers.hpp"
-#include "deck/convert.hpp"
 
 namespace strut::deck {
 
 namespace {
+
+const std::vector<std::string> types = {"bool",  "int",  "double",    "string", "Array(int)",   "Array(double)",
+                                        "short", "long", "long long", "float",  "Array(float)", "Array(string)"};
+
+Numbers numbers_of(const std::string& type) {
+  if (type == "int" || type == "short" || type == "long" || type == "long long") return Numbers::integer;
+  if (type == "double" || type == "float") return Numbers::real;
+  const bool is_array = type == "Array(int)" || type == "Array(double)" || type == "Array(float)";
+  return is_array ? Numbers::several : Numbers::none;
+}
+
+// True if the value is of the type that the deck states with it.
+bool conforms(const Parameter& parameter) {
+  const Numbers numbers = numbers_of(parameter.type);
+  if (parameter.type == "bool") return to_boolean(parameter.value).has_value();
+  if (numbers == Numbers::integer) return to_integer(parameter.value).has_value();
+  if (numbers == Numbers::real) return to_real(parameter.value).has_value();
+  return numbers != Numbers::several || to_reals(parameter.value).has_value();
+}
+
+bool suits(const std::string& type, Kind kind) {
+  if (type == "string") return true;
+  if (type == "bool") return kind == Kind::boolean;
+  return numbers_of(type) != Numbers::none && numbers_of(type) <= facts_of(kind).numbers;
+}
+
+[[noreturn]] void refuse(const Parameter& parameter, const Key& key, const std::string& because = "") {
+  throw Error("'" + parameter.value + "'" + because + "; " + expected(key));
+}
+
+double in_range(double value, const Parameter& parameter, const Key& key) {
+  if (!std::isfinite(value)) refuse(parameter, key, " is not finite");
+  if (!key.range.contains(value)) refuse(parameter, key);
+  return value;
+}
+
+std::vector<double> convert_reals(const Parameter& parameter, const Key& key) {
+  const auto numbers = to_reals(parameter.value);
+  if (!numbers || numbers->empty() || (key.kind == Kind::vector && numbers->size() != 3)) refuse(parameter, key);
+  for (const double number : *numbers) in_range(number, parameter, key);
+  return *numbers;
+}
+
+Function convert_expression(const Parameter& parameter, const Key& key) {
+  if (trimmed(parameter.value).empty()) refuse(parameter, key);
+  if (const auto number = to_real(parameter.value)) in_range(*number, parameter, key);
+  try {
+    return Function::parse(parameter.value);
+  } catch (const std::exception& error) {  // the expression compiler throws other exceptions, too
+    throw Error(std::string(trimmed(error.what())) + "; " + expected(key));
+  }
+}
+
+std::string convert_choice(const Parameter& parameter, const Key& key) {
+  const std::string& choice = parameter.value;
+  if (std::find(key.choices.begin(), key.choices.end(), choice) != key.choices.end()) return choice;
+  for (const Hint& hint : key.hints) {
+    if (hint.name == choice) refuse(parameter, key, " (" + hint.text + ")");
+  }
+  refuse(parameter, key, did_you_mean(choice, key.choices));
+}
+
+// "zx": 0 and 2, in any order.
+std::vector<int> convert_axes(const Parameter& parameter, const Key& key) {
+  const std::string& text = parameter.value;
+  std::vector<int> axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    const char letter = "xyz"[axis];
+    const auto times = std::count(text.begin(), text.end(), letter);
+    if (times > 1) refuse(parameter, key, std::string(" has ") + letter + " more than once");
+    if (times == 1) axes.push_back(axis);
+  }
+  if (axes.empty() || axes.size() != text.size()) refuse(parameter, key);
+  return axes;
+}
+
+Value convert_text(const Parameter& parameter, const Key& key) {
+  const std::string text(trimmed(parameter.value));
+  if (text.empty()) refuse(parameter, key, " is empty");
+  if (key.kind == Kind::names) return to_words(text);
+  return text;
+}
+
+template <class T>
+T or_refuse(const std::optional<T>& value, const Parameter& parameter, const Key& key) {
+  if (!value) refuse(parameter, key);
+  return *value;
+}
+
+// Converts one parameter to the value that its key declares. Throws Error with the value and what was expected. An
+// integer is accepted as a real, and a string that contains a number as that number.
+Value convert(const Parameter& parameter, const Key& key) {
+  if (parameter.type.empty()) throw Error("has no type; expected the attributes name, type and value");
+  if (std::find(types.begin(), types.end(), parameter.type) == types.end()) {
+    throw Error("unknown type '" + parameter.type + "'" + did_you_mean(parameter.type, types) + "; expected one of " +
+                joined(types));
+  }
+  if (!suits(parameter.type, key.kind)) refuse(parameter, key, " of type " + parameter.type);
+  if (!conforms(parameter)) refuse(parameter, key, " is not of type " + parameter.type);
+  switch (key.kind) {
+    case Kind::boolean:
+      return or_refuse(to_boolean(parameter.value), parameter, key);
+    case Kind::integer: {
+      const int value = or_refuse(to_integer(parameter.value), parameter, key);
+      in_range(value, parameter, key);
+      return value;
+    }
+    case Kind::real:
+      return in_range(or_refuse(to_real(parameter.value), parameter, key), parameter, key);
+    case Kind::reals:
+      return convert_reals(parameter, key);
+    case Kind::vector: {
+      const std::vector<double> numbers = convert_reals(parameter, key);
+      return Vector(numbers[0], numbers[1], numbers[2]);
+    }
+    case Kind::expression:
+      return convert_expression(parameter, key);
+    case Kind::choice:
+      return convert_choice(parameter, key);
+    case Kind::axes:
+      return convert_axes(parameter, key);
+    case Kind::text:
+    case Kind::names:
+      return convert_text(parameter, key);
+  }
+  return {};
+}
+
+// ---- Sections
 
 template <class Named>
 const Named* find(const std::vector<Named>& all, const std::string& name) {

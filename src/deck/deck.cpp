@@ -1,21 +1,19 @@
 #include "deck/deck.hpp"
 
 #include <fstream>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/numbers.hpp"
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
+#include "base/text.hpp"
 #include "deck/check.hpp"
+#include "deck/files.hpp"
 #include "deck/peridigm/peridigm.hpp"
-#include "deck/sections/inertia.hpp"
+#include "deck/sections/combinations.hpp"
 #include "deck/sections/materials.hpp"
 #include "deck/sections/node_sets.hpp"
-#include "deck/sections/temperatures.hpp"
-#include "deck/sections/written_files.hpp"
-#include "deck/tables.hpp"
-#include "deck/whole.hpp"
+#include "deck/sections/several_sections.hpp"
 #include "deck/yaml.hpp"
 
 namespace strut::deck {
@@ -185,12 +183,27 @@ std::string contents(const fs::path& file) {
     throw Error(file.string() + ": the deck has " + std::to_string(fs::file_size(file)) + " bytes, expected at most " +
                 std::to_string(largest_deck));
   }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return std::string(without_mark(text.str()));
+  return std::string(without_mark(text_of(stream.rdbuf())));
 }
 
 }  // namespace
+
+const Section& schema() {
+  static const std::string one_solver =
+      "unknown section; at most two solvers follow each other, equilibria and explicit steps: 'Solver', 'Solver 2'";
+  static const Section whole = {
+      .meaning = "",
+      .keys = {verbose_without_effect()},
+      .sections = {discretization_section(), node_sets_section(), materials_section(), damage_models_section(),
+                   blocks_section(), contact_section(), conditions_section(), start_from_section(), solver_section(),
+                   next_solver_section(), output_section(), history_section(), restart_section(), watch_section()},
+      .hints = {{"Interfaces", "unknown section; there are no interfaces between elements"},
+                {"Problem",
+                 "unknown section; this is the oldest layout of Peridigm's decks: its sections belong to the "
+                 "deck itself"},
+                {"Solver 3", one_solver}}};
+  return whole;
+}
 
 Deck read_text(std::string text, const fs::path& file, const Communicator& communicator, Problems& problems) {
   Deck deck;

@@ -14,13 +14,11 @@
 #include "deck/sections/contact.hpp"
 #include "deck/sections/damage_models.hpp"
 #include "deck/sections/discretization.hpp"
-#include "deck/sections/history.hpp"
 #include "deck/sections/materials.hpp"
 #include "deck/sections/node_sets.hpp"
 #include "deck/sections/output.hpp"
 #include "deck/sections/restart.hpp"
 #include "deck/sections/solver.hpp"
-#include "deck/sections/start_from.hpp"
 #include "deck/sections/watch.hpp"
 
 namespace strut {
@@ -62,6 +60,9 @@ Deck read(const std::filesystem::path& file, const Communicator& communicator, P
 // file.
 Deck read_text(std::string text, const std::filesystem::path& file, const Communicator& communicator,
                Problems& problems);
+
+// The schema of a whole deck, assembled from its sections.
+const Section& schema();
 
 // The reference page of all keys (Markdown), generated from the schema.
 std::string reference_page();

@@ -9,37 +9,10 @@
 #include "deck/deck.hpp"
 #include "deck/problems.hpp"
 #include "deck/schema.hpp"
-#include "deck/whole.hpp"
 
 namespace strut::deck {
 
 namespace {
-
-std::string type_text(const Key& key) {
-  switch (key.kind) {
-    case Kind::boolean:
-      return "bool";
-    case Kind::integer:
-      return "integer";
-    case Kind::real:
-      return "real";
-    case Kind::reals:
-      return "reals";
-    case Kind::vector:
-      return "3 reals";
-    case Kind::text:
-      return "text";
-    case Kind::choice:
-      return "choice";
-    case Kind::axes:
-      return "axes";
-    case Kind::names:
-      return "names";
-    case Kind::expression:
-      return "expression";
-  }
-  return "";
-}
 
 std::string range_text(const Key& key) {
   std::string text = key.range.text();
@@ -56,7 +29,7 @@ std::string default_text(const Key& key) {
 std::string value_text(const Key& key) {
   const std::string range = range_text(key);
   const bool is_shown = key.kind != Kind::choice && (key.kind != Kind::real || (range.empty() && key.unit.empty()));
-  std::string text = is_shown ? type_text(key) : "";
+  std::string text = is_shown ? facts_of(key.kind).name : "";
   if (!range.empty()) text += (text.empty() ? "" : " ") + range;
   return key.unit.empty() ? text : text + (text.empty() ? "" : ", ") + key.unit;
 }

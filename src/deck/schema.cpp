@@ -7,35 +7,20 @@
 
 namespace strut::deck {
 
-namespace {
-
-std::string describe(Kind kind) {
-  switch (kind) {
-    case Kind::real:
-      return "a real number";
-    case Kind::integer:
-      return "an integer";
-    case Kind::boolean:
-      return "true or false (type bool)";
-    case Kind::reals:
-      return "a list of real numbers";
-    case Kind::vector:
-      return "three real numbers";
-    case Kind::text:
-      return "a text (type string)";
-    case Kind::choice:
-      return "one of ";
-    case Kind::axes:
-      return "one or several of x, y, z, such as xy";
-    case Kind::names:
-      return "names separated by blanks (type string)";
-    case Kind::expression:
-      return "a number or an expression in x, y, z, t";
-  }
-  return "";
+const KindFacts& facts_of(Kind kind) {
+  static constexpr KindFacts all[] = {// in the order of Kind
+                                      {"real", "a real number", Numbers::real},
+                                      {"integer", "an integer", Numbers::integer},
+                                      {"bool", "true or false (type bool)", Numbers::none},
+                                      {"reals", "a list of real numbers", Numbers::several},
+                                      {"3 reals", "three real numbers", Numbers::several},
+                                      {"text", "a text (type string)", Numbers::none},
+                                      {"choice", "one of ", Numbers::none},
+                                      {"axes", "one or several of x, y, z, such as xy", Numbers::none},
+                                      {"names", "names separated by blanks (type string)", Numbers::none},
+                                      {"expression", "a number or an expression in x, y, z, t", Numbers::real}};
+  return all[static_cast<int>(kind)];
 }
-
-}  // namespace
 
 bool Range::contains(double value) const {
   return (with_low ? value >= low : value > low) && (with_high ? value <= high : value < high);
@@ -62,7 +47,7 @@ Section with_cases(Section section, Key selector, std::vector<Section> cases) {
 }
 
 std::string expected(const Key& key) {
-  std::string text = "expected " + describe(key.kind) + joined(key.choices);
+  std::string text = std::string("expected ") + facts_of(key.kind).expected + joined(key.choices);
   if (const std::string range = key.range.text(); !range.empty()) text += " " + range;
   if (!key.unit.empty()) text += ", in " + key.unit;
   return text;

@@ -22,6 +22,15 @@ enum class Kind {
   expression  // a number, or an expression in x, y, z, t
 };
 
+// Of the types of numbers that Teuchos knows, a kind takes those up to one.
+enum class Numbers { none, integer, real, several };
+
+struct KindFacts {
+  const char *name, *expected;  // on the page, in messages
+  Numbers numbers;
+};
+const KindFacts& facts_of(Kind kind);
+
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();

@@ -125,6 +125,13 @@ class Values {
   std::vector<Values> sections_;
 };
 
+// One case of a selector: its keys and sections, and what it makes of their values.
+template <class Made, class... More>
+struct Case {
+  Section schema;  // named by the values of the selector
+  Made (*make)(const Values& values, More... more);
+};
+
 // The entry of a table of cases (schemas_of) that the selector names; null if it names none.
 template <class Entry>
 const Entry* chosen_of(const std::vector<Entry>& entries, const Values& values) {
@@ -132,6 +139,21 @@ const Entry* chosen_of(const std::vector<Entry>& entries, const Values& values) 
     if (entry.schema.name == values.chosen()) return &entry;
   }
   return nullptr;
+}
+
+// A section whose key "Type" selects an entry of such a table.
+// The first entry is the default.
+template <class Entry>
+Section one_of(const std::string& name, const std::string& meaning, const std::vector<Entry>& entries) {
+  Key type = {.name = "Type", .fallback = entries.front().schema.name, .meaning = "Form."};
+  return with_cases({.name = name, .meaning = meaning}, std::move(type), schemas_of(entries));
+}
+
+// The object that the selected entry makes; that of the first entry if the selection itself is wrong.
+template <class Made, class... More>
+Made make_one_of(const std::vector<Case<Made, More...>>& entries, const Values& values, More... more) {
+  const Case<Made, More...>* entry = chosen_of(entries, values);
+  return (entry ? *entry : entries.front()).make(values, more...);
 }
 
 }  // namespace strut::deck

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/archive.hpp"
-#include "deck/sections/history.hpp"
+#include "deck/sections/output.hpp"
 #include "mechanics/body.hpp"
 #include "topology/point_group.hpp"
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/numbers.hpp"
 
 namespace strut {
 
@@ -44,7 +45,7 @@ int Layers::of(const Body& body, int i) const {
   return std::clamp(static_cast<int>(place), 0, count_ - 1);
 }
 
-std::vector<std::string> Mean::columns() const {
+std::vector<std::string> Reduction::columns() const {
   if (layers_.count() == 1) return {name_};
   std::vector<std::string> names;
   const std::string start = name_.substr(0, name_.size() - 1);
@@ -53,7 +54,7 @@ std::vector<std::string> Mean::columns() const {
 }
 
 template <class Value>
-std::vector<double> Mean::sums(const Body& body, const Value& value) const {
+std::vector<double> Reduction::sums(const Body& body, const Value& value) const {
   const std::vector<bool> has = number_.observable.blocks_that_have_it(body);
   const int count = layers_.count();
   std::vector<double> sums(2 * static_cast<std::size_t>(count));
@@ -67,13 +68,14 @@ std::vector<double> Mean::sums(const Body& body, const Value& value) const {
   return sums;
 }
 
-bool Mean::exists(const Body& body) const {
+bool Reduction::exists(const Body& body) const {
   const std::vector<double> sums = this->sums(body, [](int) { return 0.0; });
   return is_sum(name_) || std::all_of(sums.begin() + layers_.count(), sums.end(), [](double v) { return v > 0; });
 }
 
-std::vector<double> Mean::values(const Body& body) const {
+std::vector<double> Reduction::values(const Body& body) const {
   const std::vector<double> numbers = number_.of(body);
+  if (is_extreme(name_)) return {extreme(body, numbers)};
   const int count = layers_.count();
   const std::vector<double> sums =
       this->sums(body, [&](int i) { return (is_sum(name_) ? 1 : body.domain.volume(i)) * numbers[i]; });
@@ -82,12 +84,23 @@ std::vector<double> Mean::values(const Body& body) const {
   return means;
 }
 
+double Reduction::extreme(const Body& body, const std::vector<double>& numbers) const {
+  const std::vector<bool> has = number_.observable.blocks_that_have_it(body);
+  const double sign = name_.starts_with("Max_") ? 1 : -1;
+  double best = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < body.owned(); ++i) {
+    if (has[body.domain.cloud.blocks[i]] && layers_.of(body, i) >= 0) best = std::max(best, sign * numbers[i]);
+  }
+  return sign * body.domain.communicator.max(best);
+}
+
 namespace {
 
-// Parsed "Mean_X(set)" or "Sum_X(set)": a number, and its set of points.
+// Parsed "Mean_X(set)": a number, and its points.
 struct Asked {
   PointNumber number;
-  std::string set;  // or block, or profile; "" for all points
+  std::string set = {};  // or block, or profile; "" for all points
+  PointGroup group = {};
   const deck::Profile* profile = nullptr;
 };
 
@@ -95,20 +108,18 @@ Asked asked_for(const std::vector<Observable>& all, const std::vector<deck::Prof
                 const std::string& name, const std::string& path) {
   const std::size_t bracket = name.back() == ')' ? name.find('(') : std::string::npos;
   const std::string whole = name.substr(0, bracket);
-  const auto number = Mean::is_name(whole) ? PointNumber::find(all, whole.substr(whole.find('_') + 1)) : std::nullopt;
+  const bool is_mean = Reduction::is_mean(whole), is_known = is_mean || Reduction::is_extreme(whole);
+  const auto number = is_known ? PointNumber::find(all, whole.substr(whole.find('_') + 1)) : std::nullopt;
   if (!number) {
-    throw Error(path + ": expected Mean_ or Sum_ and the name of a variable" +
-                did_you_mean(whole, names_of_numbers(all, {"Mean_", "Sum_"})) + "; variables are " +
-                joined(names_of(all)));
+    const auto prefixes = to_words(is_mean ? "Mean_ Sum_" : "Max_ Min_ Mean_ Sum_");
+    throw Error(path + ": expected " + (is_mean ? "" : "Max_, Min_, ") + "Mean_ or Sum_ and the name of a variable" +
+                did_you_mean(whole, names_of_numbers(all, prefixes)) + "; variables are " + joined(names_of(all)));
   }
-  if (bracket == std::string::npos) return {*number, "", nullptr};
+  if (bracket == std::string::npos) return {*number};
   const std::string set = name.substr(bracket + 1, name.size() - bracket - 2);
-  const auto is_wanted = [&](const deck::Profile& profile) { return profile.name == set; };
+  const auto is_wanted = [&](const deck::Profile& profile) { return is_mean && profile.name == set; };
   const auto profile = std::find_if(profiles.begin(), profiles.end(), is_wanted);
-  if (profile == profiles.end()) {
-    const PointGroup group(cloud, set, path);  // throws if there is none
-    return {*number, set, nullptr};
-  }
+  if (profile == profiles.end()) return {*number, set, PointGroup(cloud, set, path)};  // throws if there is none
   const auto among = [&set](const std::vector<std::string>& names) {
     return std::find(names.begin(), names.end(), set) != names.end();
   };
@@ -117,23 +128,26 @@ Asked asked_for(const std::vector<Observable>& all, const std::vector<deck::Prof
                 "' is a section of History > Profiles and the name of points (node set, block or " +
                 "'all'); expected another name of the profile");
   }
-  const PointGroup group(cloud, profile->node_set, "History > Profiles > " + set + " > Node Set");
-  return {*number, set, &*profile};
+  return {*number, set, PointGroup(cloud, profile->node_set, "History > Profiles > " + set + " > Node Set"), &*profile};
 }
 
 }  // namespace
 
-void check_mean(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const PointCloud& cloud,
-                const std::string& name, const std::string& where) {
-  asked_for(all, profiles, cloud, name, where + " > " + name);
+void check_reduction(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles,
+                     const PointCloud& cloud, const Communicator& communicator, const std::string& name,
+                     const std::string& where) {
+  const std::string path = where + " > " + name;
+  const Asked asked = asked_for(all, profiles, cloud, name, path);
+  if (Reduction::is_extreme(name) && communicator.sum(asked.group.points(cloud)) == 0)
+    throw Error(path + ": the node set or block holds no point");
 }
 
-Mean mean_of(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const Body& body,
-             const std::string& name, const std::string& where) {
+Reduction reduction_of(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const Body& body,
+                       const std::string& name, const std::string& where) {
   const std::string path = where + " > " + name;
-  const auto [number, set, profile] = asked_for(all, profiles, body.domain.cloud, name, path);
-  if (profile) return {name, number, Layers(*profile, body, "History > Profiles > " + set)};
-  return {name, number, set.empty() ? Layers() : Layers(set, body, path)};
+  const Asked asked = asked_for(all, profiles, body.domain.cloud, name, path);
+  if (asked.profile) return {name, asked.number, Layers(*asked.profile, body, "History > Profiles > " + asked.set)};
+  return {name, asked.number, asked.set.empty() ? Layers() : Layers(asked.set, body, path)};
 }
 
 void MeanForces::add(std::span<const double> before, std::span<const double> after) {

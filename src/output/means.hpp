@@ -1,5 +1,5 @@
-// Means and sums over the points of a set or over the layers of a profile, "Mean_X(foam)" and "Sum_X(foam)" of the
-// history, and means of forces between its rows.
+// Means, sums and extremes over the points of a set, means and sums over the layers of a profile, "Mean_X(foam)",
+// "Sum_X(foam)", "Max_X(foam)" and "Min_X(foam)" of the history, and means of forces between its rows.
 #pragma once
 
 #include <span>
@@ -8,8 +8,9 @@
 
 #include "base/archive.hpp"
 #include "base/parallel/communicator.hpp"
-#include "deck/sections/history.hpp"
+#include "deck/sections/output.hpp"
 #include "output/observables.hpp"
+#include "topology/point_group.hpp"
 
 namespace strut {
 
@@ -33,15 +34,16 @@ class Layers {
   int count_ = 1;
 };
 
-// A mean over each layer, weighted by reference volumes, or the plain sum.
-class Mean {
+// A mean over each layer, weighted by reference volumes, or the plain sum; or the extreme over a single one.
+class Reduction {
  public:
-  Mean(std::string name, PointNumber number, Layers layers)
+  Reduction(std::string name, PointNumber number, Layers layers)
       : name_(std::move(name)), number_(std::move(number)), layers_(std::move(layers)) {}
-  static bool is_name(const std::string& name) { return name.starts_with("Mean_") || is_sum(name); }
+  static bool is_extreme(const std::string& name) { return name.starts_with("Max_") || name.starts_with("Min_"); }
+  static bool is_mean(const std::string& name) { return name.starts_with("Mean_") || is_sum(name); }
 
   // The same under another name: of a single layer.
-  Mean named(std::string name) && {
+  Reduction named(std::string name) && {
     name_ = std::move(name);
     return std::move(*this);
   }
@@ -56,6 +58,7 @@ class Mean {
   // Collective. For each layer the sum over its points that have the variable of value(i), then their volume.
   template <class Value>
   std::vector<double> sums(const Body& body, const Value& value) const;
+  double extreme(const Body& body, const std::vector<double>& numbers) const;  // collective
   static bool is_sum(const std::string& name) { return name.starts_with("Sum_"); }
 
   std::string name_;
@@ -63,12 +66,14 @@ class Mean {
   Layers layers_;
 };
 
-// Throws the errors of mean_of for unknown or ambiguous names.
-void check_mean(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const PointCloud& cloud,
-                const std::string& name, const std::string& where);
-// Collective. `name`: "Mean_X", or with a set, block or profile in parentheses. Throws Error on all ranks.
-Mean mean_of(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const Body& body,
-             const std::string& name, const std::string& where);
+// Collective. Throws the errors of reduction_of for unknown or ambiguous names, and for an extreme over no point.
+void check_reduction(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles,
+                     const PointCloud& cloud, const Communicator& communicator, const std::string& name,
+                     const std::string& where);
+// Collective. `name`: "Mean_X", or with a set, block or profile (not of an extreme) in parentheses. Throws Error on all
+// ranks.
+Reduction reduction_of(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const Body& body,
+                       const std::string& name, const std::string& where);
 
 // Mean forces of explicit steps between rows of the history; multiplied by the time in between they are impulses.
 class MeanForces {

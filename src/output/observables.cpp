@@ -270,4 +270,92 @@ std::vector<Observable> observables(const Body& body) {
 
 std::vector<Observable> observables_of_all_laws() { return with_states(states_of_all_laws()); }
 
+// ---- Names of observables, their components and numbers of them
+
+namespace {
+
+// The names of components in Exodus files.
+std::vector<std::string> component_names(int components) {
+  if (components == 3) return {"X", "Y", "Z"};
+  if (components == 6) return {"XX", "YY", "ZZ", "XY", "YZ", "ZX"};
+  if (components == 9) return {"XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"};
+  return {};
+}
+
+const Observable* find(const std::vector<Observable>& all, const std::string& name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
+                               const std::string& where) {
+  const std::vector<std::string> valid = names_of(all);
+  std::vector<Observable> result;
+  std::vector<std::string> problems;
+  for (const std::string& name : names) {
+    if (const Observable* found = find(all, name)) {
+      result.push_back(*found);
+    } else {
+      const bool of_others = strut::find(observables_of_all_laws(), name) != nullptr;
+      problems.push_back(where + " > " + name + ": " +
+                         (of_others ? "no material of this deck has a law with this state variable"
+                                    : "no such variable" + did_you_mean(name, valid)) +
+                         "; valid are " + joined(valid));
+    }
+  }
+  if (!problems.empty()) throw Error(joined(problems, "\n"));
+  return result;
+}
+
+std::optional<PointNumber> PointNumber::find(const std::vector<Observable>& all, const std::string& name) {
+  if (const Observable* whole = strut::find(all, name)) return PointNumber{*whole, -1};
+  const std::size_t bar = name.rfind('_');
+  const Observable* of = bar == std::string::npos ? nullptr : strut::find(all, name.substr(0, bar));
+  if (!of) return std::nullopt;
+  const std::vector<std::string> components = component_names(of->components);
+  const auto found = std::find(components.begin(), components.end(), name.substr(bar + 1));
+  if (found == components.end()) return std::nullopt;
+  return PointNumber{*of, static_cast<int>(found - components.begin())};
+}
+
+std::vector<double> PointNumber::of(const Body& body) const {
+  std::vector<double> values;
+  observable.fill(body, values);
+  const int width = observable.components;
+  if (width == 1) return values;
+  std::vector<double> numbers(body.owned());
+  for (int i = 0; i < body.owned(); ++i) {
+    const double* first = &values[static_cast<std::size_t>(i) * width];
+    numbers[i] = component < 0 ? Eigen::Map<const Eigen::VectorXd>(first, width).norm() : first[component];
+  }
+  return numbers;
+}
+
+std::vector<bool> Observable::blocks_that_have_it(const Body& body) const {
+  std::vector<bool> all;
+  for (const MaterialBlock& block : body.blocks) all.push_back(!exists || exists(block));
+  return all;
+}
+
+std::vector<std::string> names_of(const std::vector<Observable>& all) {
+  std::vector<std::string> names;
+  for (const Observable& o : all) names.push_back(o.name);
+  return names;
+}
+
+std::vector<std::string> names_of_numbers(const std::vector<Observable>& all,
+                                          const std::vector<std::string>& prefixes) {
+  std::vector<std::string> names;
+  for (const std::string& prefix : prefixes) {
+    for (const Observable& o : all) {
+      names.push_back(prefix + o.name);
+      for (const std::string& component : component_names(o.components))
+        names.push_back(prefix + o.name + "_" + component);
+    }
+  }
+  return names;
+}
+
 }  // namespace strut

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "mechanics/body.hpp"
-#include "topology/point_group.hpp"
 
 namespace strut {
 
@@ -56,28 +55,5 @@ struct PointNumber {
 std::vector<std::string> names_of_numbers(const std::vector<Observable>& all, const std::vector<std::string>& prefixes);
 // The observables alone.
 std::vector<std::string> names_of(const std::vector<Observable>& all);
-
-// "Max_X" and "Min_X" of a scalar X: collective, over all points of all ranks; "Max_X(foam)": over the points of the
-// node set foam or, if there is none, of the block.
-class Extreme {
- public:
-  // Throws Error like chosen(). `cloud`: the points of the body.
-  Extreme(const std::vector<Observable>& all, const PointCloud& cloud, const std::string& name,
-          const std::string& where);
-  const std::string& name() const { return name_; }
-  std::string unit() const { return number_.observable.unit; }
-  // Number of points of this rank in its group.
-  std::int64_t points(const PointCloud& cloud) const { return group_.points(cloud); }
-  // Number of these points whose block has the variable.
-  std::int64_t points(const Body& body) const;
-  double local(const Body& body) const;  // of this rank, negated for a minimum, so that ranks always take the maximum
-  double value(double largest) const { return sign_ * largest; }
-
- private:
-  std::string name_;
-  PointNumber number_;
-  double sign_ = 1;
-  PointGroup group_;
-};
 
 }  // namespace strut

@@ -145,16 +145,12 @@ ContactComponent contact_force(const contact::Contact& contact, const std::vecto
               ": these blocks cannot touch; expected an interaction of both in Contact > Interactions");
 }
 
-// "Displacement_Z(tip)" of a probe: the mean over its one point, "Mean_Displacement_Z(tip)". "" for other names.
-std::string mean_of_probe(const std::vector<deck::NodeSet>& sets, const std::string& name) {
-  const auto is_meant = [&](const deck::NodeSet& probe) {
-    return probe.nearest && name.ends_with("(" + probe.name + ")");
-  };
-  if (std::none_of(sets.begin(), sets.end(), is_meant)) return "";
-  for (const char* const prefix : {"Mean_", "Sum_", "Max_", "Min_"}) {
-    if (name.starts_with(prefix)) return "";
-  }
-  return "Mean_" + name;
+// "Displacement_Z(tip)" of a probe: the mean over its one point, "Mean_Displacement_Z(tip)". Other names stay.
+std::string with_mean(const std::vector<deck::NodeSet>& sets, const std::string& name) {
+  if (Reduction::is_mean(name) || Reduction::is_extreme(name)) return name;
+  const bool is_of_probe = std::ranges::any_of(
+      sets, [&](const deck::NodeSet& probe) { return probe.nearest && name.ends_with("(" + probe.name + ")"); });
+  return is_of_probe ? "Mean_" + name : name;
 }
 
 // Collective. For variables whose zeros in blocks of other laws would be taken for values.
@@ -163,18 +159,6 @@ void check_exists(bool exists, const std::string& name) {
   throw Error(where + " > " + name +
               ": there are points only whose material has no such variable; expected a block or set where one has it");
 }
-
-// Collective: an unknown name throws on all ranks before points are counted.
-Extreme extreme(const std::vector<Observable>& all, const PointCloud& cloud, const Communicator& communicator,
-                const std::string& name) {
-  Extreme extreme(all, cloud, name, where);
-  if (communicator.sum(extreme.points(cloud)) > 0) return extreme;
-  throw Error(where + " > " + name + ": the node set or block holds no point");
-}
-
-}  // namespace
-
-namespace {
 
 template <class LookUp>
 void attempt(deck::Problems& problems, const LookUp& look_up) {
@@ -198,12 +182,8 @@ void look_up(const deck::Deck& deck, const std::vector<Observable>& all, const P
     return;  // the other names need the mesh
   } else if (means(without_instant(name), "Contact", contact_names)) {
     contact_component(cloud.block_names, name);
-  } else if (const std::string mean = mean_of_probe(deck.node_sets, name); !mean.empty()) {
-    check_mean(all, deck.history.profiles, cloud, mean, where);
-  } else if (Mean::is_name(name)) {
-    check_mean(all, deck.history.profiles, cloud, name, where);
   } else {
-    extreme(all, cloud, communicator, name);
+    check_reduction(all, deck.history.profiles, cloud, communicator, with_mean(deck.node_sets, name), where);
   }
 }
 
@@ -225,9 +205,9 @@ std::vector<Observable> observables_of(const deck::Deck& deck, const deck::Probl
 }
 
 // The layers of a profile may be called like a probe, a node set or a block.
-void check_columns(const std::vector<Mean>& means, deck::Problems& problems) {
+void check_columns(const std::vector<Reduction>& means, deck::Problems& problems) {
   std::set<std::string> columns;
-  for (const Mean& mean : means) {
+  for (const Reduction& mean : means) {
     for (const std::string& column : mean.columns()) {
       if (columns.insert(column).second) continue;
       problems.add(where, "two columns are called '" + column + "'; expected another name of the section of Profiles");
@@ -271,15 +251,11 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
         variables.crack_columns.push_back(crack_column(deck.history.cracks, body, name, variables.cracks));
       } else if (means(without_instant(name), "Contact", contact_names)) {
         variables.contacts.push_back(contact_force(contact, body.domain.cloud.block_names, name));
-      } else if (const std::string mean = mean_of_probe(deck.node_sets, name); !mean.empty()) {
-        variables.means.push_back(mean_of(all, deck.history.profiles, body, mean, where).named(name));
-        check_exists(variables.means.back().exists(body), name);
-      } else if (Mean::is_name(name)) {
-        variables.means.push_back(mean_of(all, deck.history.profiles, body, name, where));
-        check_exists(variables.means.back().exists(body), name);
       } else {
-        variables.extremes.push_back(extreme(all, body.domain.cloud, body.domain.communicator, name));
-        check_exists(body.domain.communicator.sum(variables.extremes.back().points(body)) > 0, name);
+        const std::string whole = with_mean(deck.node_sets, name);
+        auto& those = Reduction::is_extreme(whole) ? variables.extremes : variables.means;
+        those.push_back(reduction_of(all, deck.history.profiles, body, whole, where).named(name));
+        check_exists(those.back().exists(body), name);
       }
     });
   }

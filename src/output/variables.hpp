@@ -38,11 +38,11 @@ struct ContactComponent {
 
 struct OutputVariables {
   std::vector<Observable> frame;             // Output > Output Variables
-  std::vector<Extreme> extremes;             // History > Variables
+  std::vector<Reduction> extremes;           // History > Variables
   std::vector<ReactionComponent> reactions;  // History > Variables
   std::vector<CrackColumn> crack_columns;    // History > Variables
   std::vector<CrackTip> cracks;              // cracks of these columns
-  std::vector<Mean> means;                   // History > Variables
+  std::vector<Reduction> means;              // History > Variables
   std::vector<ContactComponent> contacts;    // History > Variables
 };
 

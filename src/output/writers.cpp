@@ -72,12 +72,12 @@ void History::open(const Body& body) {
                                          {"Momentum_X", "kg m/s"},
                                          {"Momentum_Y", "kg m/s"},
                                          {"Momentum_Z", "kg m/s"}};
-  for (const Extreme& extreme : extremes_) columns.push_back({extreme.name(), extreme.unit()});
+  for (const Reduction& extreme : extremes_) columns.push_back({extreme.columns()[0], extreme.unit()});
   const std::string of_forces = has_means_ ? "N (mean)" : has_means_later_ ? "N (mean in explicit steps)" : "N";
   const auto unit = [&](bool is_instant) { return is_instant ? "N" : of_forces; };
   for (const ReactionComponent& reaction : reactions_) columns.push_back({reaction.name, unit(reaction.is_instant)});
   for (const CrackColumn& column : crack_columns_) columns.push_back({column.name, column.is_speed ? "m/s" : "m"});
-  for (const Mean& mean : means_) {
+  for (const Reduction& mean : means_) {
     for (std::string& name : mean.columns()) columns.push_back({std::move(name), mean.unit()});
   }
   for (const ContactComponent& contact : contacts_) columns.push_back({contact.name, unit(contact.is_instant)});
@@ -135,19 +135,16 @@ void History::write(const Ledger& now, const Reactions& reactions, const contact
                           now.stabilization, now.fracture, now.heat,          now.tool_kinetic, now.tools,
                           now.contact,       now.external, now.balance_error, now.momentum[0],  now.momentum[1],
                           now.momentum[2]};
-  const std::size_t fixed = row.size();
-  for (const Extreme& e : extremes_) row.push_back(e.local(body));
-  for (const CrackTip& crack : cracks_) row.push_back(crack.local(body));
-  body.domain.communicator.max(std::span(row).subspan(fixed));
-  for (std::size_t k = 0; k < extremes_.size(); ++k) row[fixed + k] = extremes_[k].value(row[fixed + k]);
-  const std::size_t tips = fixed + extremes_.size();
-  for (std::size_t k = 0; k < cracks_.size(); ++k) cracks_[k].take(now.time, row[tips + k]);
-  row.resize(tips);
+  for (const Reduction& extreme : extremes_) row.push_back(extreme.values(body)[0]);
+  std::vector<double> tips;
+  for (const CrackTip& crack : cracks_) tips.push_back(crack.local(body));
+  body.domain.communicator.max(tips);
+  for (std::size_t k = 0; k < cracks_.size(); ++k) cracks_[k].take(now.time, tips[k]);
   const std::vector<double> forces = this->forces(now.time, reactions, contact, body.domain);
   const auto of_contacts = forces.begin() + static_cast<std::ptrdiff_t>(reactions_.size());
   row.insert(row.end(), forces.begin(), of_contacts);
   for (const CrackColumn& column : crack_columns_) row.push_back(column.of(cracks_[column.crack]));
-  for (const Mean& mean : means_) {
+  for (const Reduction& mean : means_) {
     for (const double value : mean.values(body)) row.push_back(value);
   }
   row.insert(row.end(), of_contacts, forces.end());

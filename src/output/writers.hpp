@@ -75,11 +75,11 @@ class History {
   bool enabled_;
   double last_ = never;
   std::filesystem::path path_;
-  std::vector<Extreme> extremes_;
+  std::vector<Reduction> extremes_;
   std::vector<ReactionComponent> reactions_;
   std::vector<CrackColumn> crack_columns_;
   std::vector<CrackTip> cracks_;
-  std::vector<Mean> means_;
+  std::vector<Reduction> means_;
   std::vector<ContactComponent> contacts_;
   bool has_means_;              // false for equilibria: all forces are those at the time
   bool has_means_later_;        // explicit steps follow the equilibria

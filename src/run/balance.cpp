@@ -1,11 +1,12 @@
 #include "run/balance.hpp"
 
 #include <algorithm>
+#include <iomanip>
 #include <iostream>
 #include <numeric>
-#include <sstream>
 #include <string>
 
+#include "base/text.hpp"
 #include "topology/partition.hpp"
 
 namespace strut {
@@ -33,12 +34,7 @@ std::vector<double> work_of_points(const Scene& scene, const contact::Contact& c
   return work;
 }
 
-std::string to_text(double ratio) {
-  std::ostringstream text;
-  text.precision(3);
-  text << ratio;
-  return text.str();
-}
+std::string to_text(double ratio) { return text_of(std::setprecision(3), ratio); }
 
 void tell(const Communicator& communicator, int step, const std::string& text) {
   if (communicator.rank() == 0) std::cout << "step " << step << ": " << text << std::endl;

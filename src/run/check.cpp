@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "checkpoint/checkpoint.hpp"
 #include "deck/deck.hpp"
 #include "output/variables.hpp"
@@ -74,13 +75,11 @@ std::string check_steps(const deck::Deck& deck, Scene& scene) {
   const double moving = std::max(first, measured_moving_step(deck, solver, scene.body));
   const double dt = scene.control.fixed_dt > 0 ? scene.control.fixed_dt : scene.control.safety_factor * limit;
   const double steps = std::ceil((deck.solver.final_time - deck.solver.initial_time) / dt);
-  std::ostringstream text;
-  text << step_warning(scene.control, limit, deck.solver.initial_time) << "critical time step " << limit
-       << " s at the start; about " << steps << " steps of " << dt
-       << " s (more where the step must shrink with the deformation)\n"
-       << "estimated time " << range(steps * moving, most * steps * moving) << " (" << moving
-       << " s a step in which all points move, measured; " << first << " s of the first ones)\n";
-  return text.str();
+  return text_of(step_warning(scene.control, limit, deck.solver.initial_time), "critical time step ", limit,
+                 " s at the start; about ", steps, " steps of ", dt,
+                 " s (more where the step must shrink with the deformation)\n", "estimated time ",
+                 range(steps * moving, most * steps * moving), " (", moving,
+                 " s a step in which all points move, measured; ", first, " s of the first ones)\n");
 }
 
 // Estimates from the first two load steps, or from the start of the first if it takes long.

@@ -9,6 +9,8 @@
 #include "checkpoint/checkpoint.hpp"
 #include "io/file_lock.hpp"
 #include "output/variables.hpp"
+#include "output/writers.hpp"
+#include "run/run_control.hpp"
 #include "setup/setup.hpp"
 
 namespace strut {
@@ -34,6 +36,22 @@ void check_files(const deck::Deck& deck, deck::Problems& problems) {
   if (!why.empty() && !problems.about("Restart > Filename")) problems.add("Restart > Filename", why);
 }
 
+// A run of two solvers that ended early left no checkpoint: in a chain of jobs each one would come no further, and would
+// replace the files of the one before.
+void check_two_solvers(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
+  if (!deck.next_solver || is_over(deck, communicator)) return;
+  const auto is_there = [&](const std::filesystem::path& file) {
+    return communicator.max(communicator.rank() == 0 && std::filesystem::exists(file) ? 1.0 : 0.0) > 0;
+  };
+  for (const auto& file :
+       {deck.output.enabled ? deck.output.file : "", deck.history.has_file() ? deck.history.file : ""}) {
+    if (file.empty() || !is_there(file)) continue;
+    problems.add("Solver 2", "a run of two solvers writes no checkpoint: there is none to go on from, and " +
+                                 file.string() + " would be replaced; expected 'strut " + deck.file.string() +
+                                 "', which begins anew, with time enough for both solvers");
+  }
+}
+
 }  // namespace
 
 void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, deck::Problems& problems) {
@@ -51,6 +69,18 @@ void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, d
        << ": expected Start From > Checkpoint with that of the first part, or the deck of the first part with a later "
           "Final Time and 'strut --continue'; or 'false' to begin then with bodies that are undeformed";
   problems.add(key, text.str());
+}
+
+bool look_at_checkpoint(const deck::Deck& deck, bool begins_anew, const Communicator& communicator,
+                        deck::Problems& problems) {
+  const bool is_there = checkpoint_exists(deck, communicator);
+  check_resumption(deck, is_there, begins_anew, problems);
+  if (!is_there && !begins_anew) check_two_solvers(deck, communicator, problems);
+  if (!problems.empty()) return false;
+  if (is_there && !begins_anew) return check_changes(deck, communicator);
+  if (!is_there && (!begins_anew || deck.restart.resumes))
+    say(communicator, "there is no checkpoint " + deck.restart.file.string() + ": the run begins anew\n");
+  return false;
 }
 
 PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const Communicator& communicator,

@@ -22,4 +22,9 @@ PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const C
 // checkpoint.
 void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, deck::Problems& problems);
 
+// Collective. Checks, before the mesh is read, whether the run can resume from a checkpoint or start without it.
+// Returns true if it resumes from one with thermal strains.
+bool look_at_checkpoint(const deck::Deck& deck, bool begins_anew, const Communicator& communicator,
+                        deck::Problems& problems);
+
 }  // namespace strut

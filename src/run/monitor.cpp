@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "conditions/crossing.hpp"
 #include "contact/interpenetration.hpp"
 
@@ -52,11 +53,7 @@ std::string fastest_point(const Body& body) {
   return of_largest(body, largest, text.str());
 }
 
-std::string at(double time) {
-  std::ostringstream text;
-  text << "at t = " << time << " s ";
-  return text.str();
-}
+std::string at(double time) { return text_of("at t = ", time, " s "); }
 
 // True for laws that follow from rates alone: they have no energy, and J σ:ε/2 of the present stress is taken for it.
 bool is_of_rates(const MaterialBlock& block) {
@@ -313,9 +310,7 @@ void Monitor::check_energy(const Ledger& ledger, bool last) {
 
 void Monitor::tell_if_negative(What what, const char* name, double energy, const Ledger& ledger, const char* causes) {
   if (!(energy < -worth_telling * ledger.largest)) return;
-  std::ostringstream text;
-  text << at(ledger.time) << name << " is negative, " << energy << " J: " << causes;
-  warn(what, text.str());
+  warn(what, text_of(at(ledger.time), name, " is negative, ", energy, " J: ", causes));
 }
 
 namespace {
@@ -366,12 +361,12 @@ void Monitor::check_resolution(const Ledger& ledger, bool last) {
 void Monitor::check_springs(const Ledger& ledger) {
   const double internal = ledger.elastic + ledger.dissipated;
   if (!(ledger.dissipated > ledger.elastic && ledger.stabilization > much_in_springs * internal)) return;
-  std::ostringstream text;
-  text << at(ledger.time) << "the springs of the stabilization hold " << 100 * ledger.stabilization / internal
-       << " % of what the body has taken up; up to 10 % is usual. The motion is finer than the points resolve: expect "
-          "wrong stresses. Likely causes: too few points, metal that is too soft to hold together, another "
-          "Stabilization Coefficient than the default";
-  warn(springs, text.str());
+  warn(springs,
+       text_of(
+           at(ledger.time), "the springs of the stabilization hold ", 100 * ledger.stabilization / internal,
+           " % of what the body has taken up; up to 10 % is usual. The motion is finer than the points resolve: expect "
+           "wrong stresses. Likely causes: too few points, metal that is too soft to hold together, another "
+           "Stabilization Coefficient than the default"));
 }
 
 // The largest stretch of a point with all its bonds is at most the norm of F.

@@ -1,4 +1,4 @@
-// Tasks of a run besides its steps: checkpoints, output, limits, progress, and the reaction to signals.
+// The end of a run before its final time: signals, its wall time, its owner.
 #pragma once
 
 #include <chrono>
@@ -6,14 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "checkpoint/checkpoint.hpp"
-#include "deck/deck.hpp"
-#include "output/writers.hpp"
-#include "run/monitor.hpp"
-#include "run/report.hpp"
-#include "setup/scene.hpp"
-
 namespace strut {
+
+class Communicator;
 
 // From now on these signals (of csignal) end the run after the current step, or its first one.
 void catch_signals(std::initializer_list<int> signals);
@@ -40,42 +35,5 @@ class EarlyEnd {
 
 // Prints on rank 0.
 void say(const Communicator& communicator, const std::string& text);
-
-// Objects of a run besides its solver.
-struct RunServices {
-  const deck::Deck& deck;
-  const Scene& scene;
-  OutputWriters& writers;
-  Checkpoint& checkpoint;
-  Monitor& monitor;
-  const EarlyEnd& early_end;
-};
-
-// Control of an explicit run. Ranks agree on the tasks of the next time one step ahead, so that all compute energies at
-// times of output or checkpoints.
-class ExplicitRunControl {
- public:
-  ExplicitRunControl(const RunServices& services, const CentralDifference& solver);
-
-  // Collective. Between advance_position() and advance_velocity(): saves a checkpoint if one is due.
-  void save(CentralDifference& solver);
-  // Collective. After advance_velocity(): output, limits, progress. Returns true if this was the last time.
-  bool observe(CentralDifference& solver);
-  // Before advance_position(): tells the solver this rank's requests; returns true if diagnostics are needed next.
-  bool prepare_next(CentralDifference& solver);
-
-  // True if no step follows.
-  bool ends_here(const CentralDifference& solver) const { return is_over(solver) || ending_; }
-
-  void finish() { progress_.finish(); }
-
- private:
-  bool is_over(const CentralDifference& solver) const { return solver.time() >= services_.deck.solver.final_time; }
-  void warn_of_fixed_step(const CentralDifference& solver);
-
-  RunServices services_;
-  Progress progress_;
-  bool warned_ = false, ending_ = false, saving_ = false;
-};
 
 }  // namespace strut

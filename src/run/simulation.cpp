@@ -2,15 +2,17 @@
 
 #include <csignal>
 #include <iostream>
-#include <sstream>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "base/timing.hpp"
-#include "deck/deck.hpp"
+#include "checkpoint/checkpoint.hpp"
 #include "output/variables.hpp"
 #include "run/balance.hpp"
 #include "run/input.hpp"
+#include "run/monitor.hpp"
 #include "run/repartition.hpp"
+#include "run/report.hpp"
 #include "run/run_control.hpp"
 #include "run/start_from.hpp"
 #include "setup/setup.hpp"
@@ -46,36 +48,6 @@ Observer observer(const deck::Deck& deck, const Communicator& communicator, cons
   return observer;
 }
 
-// A run of two solvers that ended early left no checkpoint: in a chain of jobs each one would come no further, and would
-// replace the files of the one before.
-void check_two_solvers(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
-  if (!deck.next_solver || is_over(deck, communicator)) return;
-  const auto is_there = [&](const std::filesystem::path& file) {
-    return communicator.max(communicator.rank() == 0 && std::filesystem::exists(file) ? 1.0 : 0.0) > 0;
-  };
-  for (const auto& file :
-       {deck.output.enabled ? deck.output.file : "", deck.history.has_file() ? deck.history.file : ""}) {
-    if (file.empty() || !is_there(file)) continue;
-    problems.add("Solver 2", "a run of two solvers writes no checkpoint: there is none to go on from, and " +
-                                 file.string() + " would be replaced; expected 'strut " + deck.file.string() +
-                                 "', which begins anew, with time enough for both solvers");
-  }
-}
-
-// Checks, before the mesh is read, whether the run can resume from a checkpoint or start without it. Returns true if it
-// resumes from one with thermal strains.
-bool look_at_checkpoint(const deck::Deck& deck, Start start, const Communicator& communicator,
-                        deck::Problems& problems) {
-  const bool is_there = checkpoint_exists(deck, communicator);
-  check_resumption(deck, is_there, start == Start::anew, problems);
-  if (!is_there && start == Start::continued) check_two_solvers(deck, communicator, problems);
-  if (!problems.empty()) return false;
-  if (is_there && start == Start::continued) return check_changes(deck, communicator);
-  if (!is_there && (start == Start::continued || deck.restart.resumes))
-    say(communicator, "there is no checkpoint " + deck.restart.file.string() + ": the run begins anew\n");
-  return false;
-}
-
 }  // namespace
 
 // The objects of a run. A step leaves a time and arrives at the next one.
@@ -91,12 +63,12 @@ struct Run::Parts {
   std::optional<QuasiStatic> equilibria;
   std::optional<Monitor> monitor;
   std::optional<Checkpoint> checkpoint;
-  std::optional<RunServices> services;
-  std::optional<ExplicitRunControl> control;
-  int before = 0;  // number of steps of the earlier run that this one resumes
+  std::optional<Progress> progress;  // of explicit steps
+  int before = 0;                    // number of steps of the earlier run that this one resumes
   HistoryRows* history = nullptr;
   bool begun = false, ended = false;
-  bool last = false, ending = false, save = false;  // `ending`, `save`: of equilibria
+  bool last = false, ending = false, saving = false;  // at this time, as all ranks have agreed
+  bool warned = false;                                // of a fixed step
 
   Parts(deck::Deck of_run, const Communicator& ranks)
       : deck(std::move(of_run)), communicator(ranks), early_end(began, deck.solver.wall_time), balance(deck) {}
@@ -117,13 +89,18 @@ struct Run::Parts {
   void make_solver(StartState* state = nullptr);
   void open(Start start);
   void begin();
-  bool arrive() { return equilibria ? arrive_at_equilibrium() : arrive_at_step(); }
+  void arrive();
   void leave(const Pause& pause) { equilibria ? leave_equilibrium() : leave_step(pause); }
-  bool arrive_at_step();
-  void leave_step(const Pause& pause);
-  bool arrive_at_equilibrium();
-  void leave_equilibrium();
+  void save();
   std::optional<Ledger> record();
+  void watch_step();
+  void watch_equilibrium();
+  template <class Solver>
+  void watch_bodies(Solver& solver);
+  void warn_of_fixed_step();
+  bool is_something_due_next();
+  void leave_step(const Pause& pause);
+  void leave_equilibrium();
   template <class Action>
   void guarded(const Action& action);
   bool steps_follow() { return last && is_over() && equilibria && deck.next_solver; }
@@ -134,7 +111,7 @@ struct Run::Parts {
 };
 
 void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Start start) {
-  const bool has_expanded = look_at_checkpoint(deck, start, communicator, problems);
+  const bool has_expanded = look_at_checkpoint(deck, start == Start::anew, communicator, problems);
   const bool continued = start == Start::continued && checkpoint_exists(deck, communicator);
   std::optional<StartState> state;
   if (!continued) state = start_state_of(deck, communicator, problems);
@@ -194,7 +171,6 @@ void Run::Parts::open(Start start) {
   }
   writers->open(scene->body);
   before = number_of_steps();
-  services.emplace(RunServices{deck, *scene, *writers, *checkpoint, *monitor, early_end});
 }
 
 void Run::Parts::begin() {
@@ -203,43 +179,88 @@ void Run::Parts::begin() {
   if (const auto ranks = balance.take_restored_ranks()) repartition({deck, scene, steps, writers}, *ranks);
   say(communicator, critical_time_step_line(steps->critical_time_step()));
   check_step_at(steps->time(), scene->control, steps->critical_time_step());
-  control.emplace(*services, *steps);
+  progress.emplace(communicator, deck.solver.initial_time, time(), deck.solver.final_time);
 }
 
-bool Run::Parts::arrive_at_step() {
-  CentralDifference& solver = *steps;
-  control->save(solver);
-  if (!control->ends_here(solver) && !solver.went_on()) {  // the monitor must first report the point
-    if (const auto ranks = balance.better_ranks(*scene, solver)) repartition({deck, scene, steps, writers}, *ranks);
+void Run::Parts::arrive() {
+  last = ending || is_over();
+  save();
+  if (equilibria) return watch_equilibrium();
+  if (!last && !steps->went_on()) {  // the monitor must first report the point
+    if (const auto ranks = balance.better_ranks(*scene, *steps)) repartition({deck, scene, steps, writers}, *ranks);
   }
-  solver.advance_velocity(deck.solver.final_time);
-  return control->observe(solver);
+  steps->advance_velocity(deck.solver.final_time);
+  watch_step();
 }
 
-void Run::Parts::leave_step(const Pause& pause) {
-  const bool with_diagnostics = control->prepare_next(*steps);
-  const bool pauses = pause.steps <= 1 || steps->time() + steps->dt() >= pause.time;
-  steps->advance_position(with_diagnostics || pauses);
+void Run::Parts::save() {
+  const bool wanted = is_over() ? checkpoint->due_at_the_end() : ending || saving;
+  if (wanted || checkpoint->due(number_of_steps(), time())) checkpoint->write(number_of_steps(), time());
 }
 
 std::optional<Ledger> Run::Parts::record() {
+  if (steps) {
+    return writers->write(
+        scene->body, *steps, [&] { return steps->reactions(); }, last);
+  }
   const int conditions = writers->history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
   return writers->write(
       scene->body, *equilibria, [&] { return equilibria->reactions(conditions); }, last);
 }
 
-bool Run::Parts::arrive_at_equilibrium() {
-  QuasiStatic& solver = *equilibria;
-  last = ending || is_over();
-  if (is_over()) save = checkpoint->due_at_the_end();
-  if (save || checkpoint->due(solver.steps(), solver.time())) checkpoint->write(solver.steps(), solver.time());
+void Run::Parts::watch_step() {
+  CentralDifference& solver = *steps;
+  warn_of_fixed_step();
+  monitor->check_step(solver);
+  watch_bodies(solver);
+  writers->history.gather(solver.impulses(), solver.contact(), scene->body.domain);
   const auto ledger = record();
-  monitor->check_energy(ledger ? *ledger : solver.ledger(), last);
-  monitor->check_failed(solver.time());
+  if (ledger || last || monitor->is_energy_due(solver.time())) {
+    const Ledger now = ledger ? *ledger : solver.ledger();
+    monitor->check_energy(now, last);
+    monitor->check_resolution(now, last);
+  }
+  progress->show(solver.steps(), solver.time(), solver.dt());
+}
+
+void Run::Parts::watch_equilibrium() {
+  const auto ledger = record();
+  monitor->check_energy(ledger ? *ledger : equilibria->ledger(), last);
+  monitor->check_failed(time());
+  watch_bodies(*equilibria);
+}
+
+template <class Solver>
+void Run::Parts::watch_bodies(Solver& solver) {
   monitor->check_interpenetration(solver.time(), solver.contact());
   monitor->check_undeclared(solver.time(), solver.contact());
   monitor->check_tools(solver.time(), solver.conditions(), scene->tools);
-  return last;
+}
+
+void Run::Parts::warn_of_fixed_step() {
+  const double limit = steps->critical_time_step();
+  if (warned || !(scene->control.fixed_dt > limit)) return;
+  say(communicator, step_warning(scene->control, limit, time()));
+  warned = true;
+}
+
+// Ranks agree on the tasks of the next time one step ahead, so that all compute energies at times of output or
+// checkpoints.
+bool Run::Parts::is_something_due_next() {
+  using Request = CentralDifference::Request;
+  steps->request(early_end.wanted() ? Request::stop : checkpoint->due_by_the_clock() ? Request::save : Request::none);
+  ending = steps->agreed_request() == Request::stop;
+  saving = steps->agreed_request() == Request::save;
+  const double next = time() + steps->dt();
+  const int step = number_of_steps() + 1;
+  return next >= deck.solver.final_time || ending || saving || writers->due(step, next) ||
+         monitor->is_energy_due(next) || checkpoint->due(step, next);
+}
+
+void Run::Parts::leave_step(const Pause& pause) {
+  const bool with_diagnostics = is_something_due_next();
+  const bool pauses = pause.steps <= 1 || time() + steps->dt() >= pause.time;
+  steps->advance_position(with_diagnostics || pauses);
 }
 
 void Run::Parts::leave_equilibrium() {
@@ -251,7 +272,7 @@ void Run::Parts::leave_equilibrium() {
     throw;
   }
   ending = communicator.max(ending || early_end.wanted() ? 1.0 : 0.0) > 0;
-  save = ending || communicator.max(checkpoint->due_by_the_clock() ? 1.0 : 0.0) > 0;
+  saving = ending || communicator.max(checkpoint->due_by_the_clock() ? 1.0 : 0.0) > 0;
 }
 
 // After an error the run writes a frame, says how to resume, and has ended.
@@ -276,8 +297,7 @@ void Run::Parts::guarded(const Action& action) {
 
 // Closes the files, for other runs of this process; the fields stay.
 void Run::Parts::close() {
-  control.reset();
-  services.reset();
+  progress.reset();
   checkpoint.reset();
   writers.reset();
 }
@@ -287,9 +307,7 @@ void Run::Parts::hand_over() {
   report();
   const Ledger before = equilibria->ledger();
   deck = set_up_next(deck, equilibria->conditions(), equilibria->take_contact(), equilibria->take_fracture(), *scene);
-  std::ostringstream from;
-  from << "\nSolver 2: explicit steps from t = " << deck.solver.initial_time << " s\n" << scene->warnings;
-  say(communicator, from.str());
+  say(communicator, text_of("\nSolver 2: explicit steps from t = ", deck.solver.initial_time, " s\n", scene->warnings));
   Snapshot kept;
   Archive saved = Archive::saving_to(kept);
   writers->serialize(saved, number_of_steps(), time());
@@ -303,7 +321,7 @@ void Run::Parts::hand_over() {
   make_solver();
   steps->go_on_from(before);
   open(Start::anew);
-  begun = last = ending = save = false;
+  begun = last = ending = saving = false;
 }
 
 void Run::Parts::report() {
@@ -313,7 +331,7 @@ void Run::Parts::report() {
 }
 
 void Run::Parts::finish() {
-  if (control) control->finish();
+  if (progress) progress->finish();
   if (is_over()) checkpoint->close();
   report();
   say(communicator, is_over() ? checkpoint->kept() : early_end.reason(communicator) + checkpoint->hint() + "\n");
@@ -338,11 +356,11 @@ bool Run::advance(const Pause& pause) {
       if (run.steps_follow()) run.hand_over();
       if (!run.begun) {
         run.begin();
-        run.last = run.arrive();
+        run.arrive();
       }
       for (; !run.last && left.steps > 0 && run.time() < pause.time; --left.steps) {
         run.leave(left);
-        run.last = run.arrive();
+        run.arrive();
       }
     } while (run.steps_follow());
   });

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
+#include "base/text.hpp"
 #include "mechanics/energies.hpp"
 #include "mechanics/serialize.hpp"
 #include "setup/conditions.hpp"
@@ -55,11 +57,9 @@ std::string other_stretch(const deck::Deck& deck, const std::vector<Period>& per
     const double there = found.numbers.at(std::string("stretch_") + "xyz"[period.axis]),
                  here = stretch_at(periods, t)[period.axis];
     if (std::abs(there - here) <= round_off) continue;
-    std::ostringstream text;
-    text.precision(12);
-    text << "Boundary Conditions > " << deck.conditions[period.number].name << " > Stretch: is " << here
-         << " at the initial time, t = " << t << " s; expected " << there << ", as the checkpoint has it";
-    return text.str();
+    return text_of(std::setprecision(12), "Boundary Conditions > ", deck.conditions[period.number].name,
+                   " > Stretch: is ", here, " at the initial time, t = ", t, " s; expected ", there,
+                   ", as the checkpoint has it");
   }
   return "";
 }
@@ -244,11 +244,9 @@ std::string StartState::overlaps(const contact::Contact& contact, const Body& bo
   const double there = communicator.sum(kinetic) + stored_energies(body).elastic;
   const double by_contact = communicator.sum(contact.energy());
   if (!(by_contact > worth_telling * there)) return "";
-  std::ostringstream text;
-  text << "WARNING: contact begins here between bodies that are inside each other, and stores " << by_contact
-       << " J at once, beside " << there
-       << " J that are there: it throws them apart; expected this contact in the other run, too\n";
-  return text.str();
+  return text_of("WARNING: contact begins here between bodies that are inside each other, and stores ", by_contact,
+                 " J at once, beside ", there,
+                 " J that are there: it throws them apart; expected this contact in the other run, too\n");
 }
 
 template <class Solver>

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <iomanip>
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/text.hpp"
 
 namespace strut {
 
@@ -179,11 +180,10 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
     if (!section || !section->horizon || spacings[b] == 0) continue;  // check_blocks reports blocks without a section
     if (deck.discretization.grid.boxes || deck.discretization.degenerate == deck::DegeneratePoints::keep) continue;
     if (*section->horizon > spacings[b] && *section->horizon < 20 * spacings[b]) continue;
-    std::ostringstream text;
-    text << *section->horizon << " m does not fit the points of block " << cloud.block_names[b]
-         << ", whose mean spacing is " << spacings[b]
-         << " m: expected between 1 and 20 spacings, usually 2 to 4 (is the mesh in m?)";
-    problems.add("Blocks > " + section->name + " > Horizon", text.str());
+    problems.add("Blocks > " + section->name + " > Horizon",
+                 text_of(*section->horizon, " m does not fit the points of block ", cloud.block_names[b],
+                         ", whose mean spacing is ", spacings[b],
+                         " m: expected between 1 and 20 spacings, usually 2 to 4 (is the mesh in m?)"));
   }
 }
 
@@ -201,12 +201,10 @@ std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& ta
   for (int i = 0; i < body.owned(); ++i) mass += body.block_of(i).material.density * body.domain.volume(i);
   mass = body.domain.communicator.sum(mass);
   if (std::abs(more) <= worth_telling * (mass - more)) return "";
-  std::ostringstream text;
-  text.precision(4);
-  text << "WARNING: the mass is " << mass << " kg, that of the elements " << mass - more
-       << " kg: a node that blocks of two densities share has the density of the block that stands first in the mesh; "
-          "Points \"Elements\" or a finer mesh keep the mass\n";
-  return text.str();
+  return text_of(
+      std::setprecision(4), "WARNING: the mass is ", mass, " kg, that of the elements ", mass - more,
+      " kg: a node that blocks of two densities share has the density of the block that stands first in the mesh; "
+      "Points \"Elements\" or a finer mesh keep the mass\n");
 }
 
 }  // namespace strut

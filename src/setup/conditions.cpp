@@ -1,7 +1,6 @@
 #include "setup/conditions.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -9,6 +8,7 @@
 #include "base/errors.hpp"
 #include "base/math/function.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/text.hpp"
 #include "setup/contradictions.hpp"
 #include "setup/open_ends.hpp"
 #include "setup/periods.hpp"
@@ -191,11 +191,10 @@ std::string sudden_expansion(const deck::Deck& deck, Body& body) {
   constexpr double round_off = 1e-9;
   const double most = body.domain.communicator.max(sudden_expansion(body, deck.solver.initial_time));
   if (most <= round_off || deck.solver.quasi_static) return "";
-  std::ostringstream text;
-  text << "WARNING: temperatures at the initial time are not those of the checkpoint: in the first step points expand "
-          "by up to "
-       << most << ", which sends waves through the bodies (Boundary Conditions, 'Prescribed Temperature')\n";
-  return text.str();
+  return text_of(
+      "WARNING: temperatures at the initial time are not those of the checkpoint: in the first step points expand "
+      "by up to ",
+      most, ", which sends waves through the bodies (Boundary Conditions, 'Prescribed Temperature')\n");
 }
 
 // `place`: index of the condition in the deck.

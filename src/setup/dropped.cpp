@@ -1,12 +1,13 @@
 #include "setup/dropped.hpp"
 
 #include <algorithm>
+#include <iomanip>
 #include <map>
 #include <span>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/parallel/gather_scatter.hpp"
+#include "base/text.hpp"
 #include "topology/pieces.hpp"
 
 namespace strut {
@@ -33,13 +34,10 @@ std::vector<PiecePart> parts_of_this_rank(const Domain& left, const PiecesOfPoin
 }
 
 std::string lost(const Dropped& dropped) {
-  std::ostringstream text;
-  text << dropped.points << " points with too few neighbors";
-  if (dropped.parts > 0) {
-    text << "; without them " << dropped.points_cut_off << " more, in " << dropped.parts << " piece"
-         << (dropped.parts == 1 ? "" : "s") << ", are cut off";
-  }
-  return text.str();
+  const std::string few = text_of(dropped.points, " points with too few neighbors");
+  if (dropped.parts == 0) return few;
+  return text_of(few, "; without them ", dropped.points_cut_off, " more, in ", dropped.parts, " piece",
+                 dropped.parts == 1 ? "" : "s", ", are cut off");
 }
 
 }  // namespace
@@ -71,13 +69,11 @@ void check_dropped(const Domain& left, const Dropped& dropped) {
   const std::int64_t points = left.communicator.sum(static_cast<std::int64_t>(left.owned)) + dropped.points;
   const double part = static_cast<double>(dropped.points + dropped.points_cut_off) / static_cast<double>(points);
   if (!(part > most_lost)) return;
-  std::ostringstream text;
-  text.precision(3);
-  text << "Discretization > Degenerate Points: \"Drop\" would leave out " << lost(dropped) << ": " << 100 * part
-       << " % of " << points
-       << " points; expected 1 % at most. Enlarge the horizon, mend the mesh, or say \"Drop Any\" "
-       << "to go on with what is left";
-  raise_together(left.communicator, text.str());
+  raise_together(left.communicator,
+                 text_of(std::setprecision(3), "Discretization > Degenerate Points: \"Drop\" would leave out ",
+                         lost(dropped), ": ", 100 * part, " % of ", points,
+                         " points; expected 1 % at most. Enlarge the horizon, mend the mesh, or say \"Drop Any\" ",
+                         "to go on with what is left"));
 }
 
 std::string told(const Dropped& dropped) {

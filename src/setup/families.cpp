@@ -1,9 +1,9 @@
 #include "setup/families.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "base/timing.hpp"
 #include "io/exodus/exodus.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
@@ -35,11 +35,9 @@ std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain,
     found.push_back(i);
     if (found.size() > 1) continue;
     const Vector X = domain.reference(i);
-    std::ostringstream line;
-    line << word(domain.cloud.at) << " " << domain.cloud.element_ids[i] << " of block "
-         << domain.cloud.block_names[domain.cloud.blocks[i]] << " at (" << X[0] << ", " << X[1] << ", " << X[2]
-         << ") m has " << domain.families.size(i) << " neighbors: " << reason;
-    text = line.str();
+    text = text_of(word(domain.cloud.at), " ", domain.cloud.element_ids[i], " of block ",
+                   domain.cloud.block_names[domain.cloud.blocks[i]], " at (", X[0], ", ", X[1], ", ", X[2], ") m has ",
+                   domain.families.size(i), " neighbors: ", reason);
   }
   return found;
 }

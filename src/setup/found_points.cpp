@@ -1,7 +1,8 @@
 #include "setup/found_points.hpp"
 
 #include <limits>
-#include <sstream>
+
+#include "base/text.hpp"
 
 namespace strut {
 
@@ -38,10 +39,6 @@ std::vector<FoundPoints> found_points(const Body& body, const std::vector<std::v
   return found;
 }
 
-std::string place_text(const Vector& place) {
-  std::ostringstream text;
-  text << "(" << place[0] << ", " << place[1] << ", " << place[2] << ") m";
-  return text.str();
-}
+std::string place_text(const Vector& place) { return text_of("(", place[0], ", ", place[1], ", ", place[2], ") m"); }
 
 }  // namespace strut

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 #include "base/errors.hpp"
 #include "base/numbers.hpp"
+#include "base/text.hpp"
 #include "integrators/explicit/critical_time_step.hpp"
 #include "mechanics/frequency_bound.hpp"
 #include "mechanics/internal_force.hpp"
@@ -66,12 +68,7 @@ std::vector<Added> added_to(const Body& body) {
   return all;
 }
 
-std::string percent(double share) {
-  std::ostringstream text;
-  text.precision(3);
-  text << 100 * share << " %";
-  return text.str();
-}
+std::string percent(double share) { return text_of(std::setprecision(3), 100 * share, " %"); }
 
 std::string report_of(const Body& body, const std::vector<Added>& added, double wanted) {
   std::ostringstream text;

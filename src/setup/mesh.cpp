@@ -10,6 +10,7 @@
 #include "base/math/function.hpp"
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
+#include "base/text.hpp"
 #include "base/timing.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/grid/grid.hpp"
@@ -126,12 +127,10 @@ std::string unresolved_place(const PointCloud& cloud, const Communicator& commun
     const double volume = cloud.volumes[i], edge = std::cbrt(volume);
     if (std::isnormal(volume) && round_off(i) < least * edge) continue;
     first = static_cast<double>(cloud.ids[i]);
-    std::ostringstream line;
-    line << word(cloud.at) << " " << cloud.element_ids[i] << " of block '" << cloud.block_names[cloud.blocks[i]]
-         << "' at (" << cloud.positions[i].transpose() << ") m has a volume of " << volume << " m³: an edge of " << edge
-         << " m, where numbers are " << round_off(i)
-         << " m apart; expected places and volumes in m and m³ that numbers tell apart";
-    text = line.str();
+    text = text_of(word(cloud.at), " ", cloud.element_ids[i], " of block '", cloud.block_names[cloud.blocks[i]],
+                   "' at (", cloud.positions[i].transpose(), ") m has a volume of ", volume, " m³: an edge of ", edge,
+                   " m, where numbers are ", round_off(i),
+                   " m apart; expected places and volumes in m and m³ that numbers tell apart");
   }
   const double of_all = communicator.min(first);
   if (of_all == none) return "";

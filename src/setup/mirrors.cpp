@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "conditions/symmetry_plane.hpp"
 #include "setup/blocks.hpp"
 #include "topology/cloud.hpp"
@@ -124,11 +125,10 @@ std::string path_of(const deck::Deck& deck, const Mirror& plane) {
 }
 
 std::string warning_of_cells(const deck::Deck& deck, const Mirror& plane, double cells) {
-  std::ostringstream text;
-  text << "WARNING: " << path_of(deck, plane) << ": " << cells
-       << " partly filled elements at the plane bring surfaces that face it; if these are its cut, and not the body's "
-          "surface before it, quadratic correspondence is less accurate in them\n";
-  return text.str();
+  return text_of(
+      "WARNING: ", path_of(deck, plane), ": ", cells,
+      " partly filled elements at the plane bring surfaces that face it; if these are its cut, and not the body's "
+      "surface before it, quadratic correspondence is less accurate in them\n");
 }
 
 // Planes of one body that are not parallel must meet at 180°/n, or the images of the body would overlap.
@@ -140,10 +140,9 @@ void check_angles(const deck::Deck& deck, const std::vector<Mirror>& planes) {
       const double angle = std::atan2(sine, std::abs(planes[a].normal.dot(planes[b].normal)));
       const double parts = std::numbers::pi / angle;
       if (sine < 1e-9 || std::abs(parts - std::round(parts)) < 1e-6) continue;
-      std::ostringstream text;
-      text << path_of(deck, planes[b]) << " and " << path_of(deck, planes[a]) << ": symmetry planes of one body at "
-           << angle * 180 / std::numbers::pi << "°; expected 180°/n (90, 60, 45 …), or the mirror images overlap";
-      throw Error(text.str());
+      throw Error(text_of(path_of(deck, planes[b]), " and ", path_of(deck, planes[a]),
+                          ": symmetry planes of one body at ", angle * 180 / std::numbers::pi,
+                          "°; expected 180°/n (90, 60, 45 …), or the mirror images overlap"));
     }
   }
 }

@@ -5,11 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/math/expression.hpp"
 #include "base/numbers.hpp"
+#include "base/text.hpp"
 
 namespace strut {
 
@@ -74,11 +74,8 @@ double Function::evaluate(double x, double y, double z, double t) const {
 }
 
 std::string Function::describe(double x, double y, double z, double t, double value) const {
-  std::ostringstream text;
-  if (!path_.empty()) text << path_ << ": ";
-  text << "'" << shortened(text_) << "' is " << value << " at (" << x << ", " << y << ", " << z << ") m, t = " << t
-       << " s; expected a number everywhere";
-  return text.str();
+  return text_of(path_.empty() ? "" : path_ + ": ", "'", shortened(text_), "' is ", value, " at (", x, ", ", y, ", ", z,
+                 ") m, t = ", t, " s; expected a number everywhere");
 }
 
 std::string Function::first_not_finite() const {

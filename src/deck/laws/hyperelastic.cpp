@@ -2,7 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "deck/laws/constants.hpp"
-#include "deck/laws/each_law.hpp"
+#include "deck/laws/laws.hpp"
 
 namespace strut::deck {
 

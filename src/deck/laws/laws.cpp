@@ -1,7 +1,6 @@
 #include "deck/laws/laws.hpp"
 
 #include "deck/laws/constants.hpp"
-#include "deck/laws/each_law.hpp"
 
 namespace strut::deck {
 

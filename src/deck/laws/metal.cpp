@@ -2,10 +2,8 @@
 #include <sstream>
 
 #include "deck/laws/constants.hpp"
-#include "deck/laws/each_law.hpp"
 #include "deck/laws/flow_stress.hpp"
-#include "deck/laws/one_of.hpp"
-#include "deck/laws/thermal_flow.hpp"
+#include "deck/laws/laws.hpp"
 
 namespace strut::deck {
 
@@ -43,13 +41,10 @@ const RealKey gruneisen({.name = "Gruneisen Parameter", .range = not_negative, .
 const RealKey exponent({.name = "Exponent", .range = positive, .meaning = "n."});
 
 // Without an equation of state the pressure is that of Hooke's law.
-struct EquationEntry {
-  Section schema;
-  std::optional<EquationOfState> (*make)(const Values& values, double density, double bulk);
-};
+using EquationCase = Case<std::optional<EquationOfState>, double, double>;  // of density and bulk modulus
 
-const std::vector<EquationEntry>& equations() {
-  static const std::vector<EquationEntry> entries = {
+const std::vector<EquationCase>& equations() {
+  static const std::vector<EquationCase> entries = {
       {{.name = "None", .meaning = "ṗ = −K tr D."},
        [](const Values&, double, double) -> std::optional<EquationOfState> { return std::nullopt; }},
       {{.name = "Mie-Gruneisen",
@@ -68,9 +63,7 @@ const std::vector<EquationEntry>& equations() {
 }
 
 std::optional<EquationOfState> make_equation(const Values& material, double bulk) {
-  const Values& section = material.section(equation_name);
-  const EquationEntry* entry = chosen_of(equations(), section);
-  return entry ? entry->make(section, read_density(material), bulk) : std::nullopt;
+  return make_one_of(equations(), material.section(equation_name), read_density(material), bulk);
 }
 
 Heating make_heating(const Values& material) {

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "deck/laws/constants.hpp"
-#include "deck/laws/each_law.hpp"
+#include "deck/laws/laws.hpp"
 
 namespace strut::deck {
 

@@ -5,7 +5,7 @@
 
 #include "base/numbers.hpp"
 #include "deck/laws/constants.hpp"
-#include "deck/laws/each_law.hpp"
+#include "deck/laws/laws.hpp"
 #include "deck/laws/tables.hpp"
 
 namespace strut::deck {

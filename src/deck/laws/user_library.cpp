@@ -1,5 +1,5 @@
 #include "deck/laws/constants.hpp"
-#include "deck/laws/each_law.hpp"
+#include "deck/laws/laws.hpp"
 
 namespace strut::deck {
 

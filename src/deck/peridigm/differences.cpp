@@ -16,10 +16,6 @@ bool has_any(const List& list, std::initializer_list<const char*> names) {
   });
 }
 
-bool any_section_has(List* lists, std::initializer_list<const char*> names) {
-  return lists && std::ranges::any_of(lists->lists, [&](const List& one) { return has_any(one, names); });
-}
-
 bool sets_are_parameters(List* conditions) {
   return conditions && std::ranges::any_of(conditions->parameters, [](const Parameter& one) {
            return one.name.find("Node Set") != std::string::npos;
@@ -28,11 +24,10 @@ bool sets_are_parameters(List* conditions) {
 
 class Differences {
  public:
-  Differences(List& deck, Problems& problems) : deck_(deck), problems_(problems), blocks_(find_list(deck, "Blocks")) {}
+  Differences(List& deck, Problems& problems) : deck_(deck), problems_(problems) {}
 
   void tell() {
-    List* damage = find_list(deck_, "Damage Models");
-    if (damage && !damage->lists.empty()) tell_of_damage();
+    if (!sections_of(deck_, {"Damage Models"}).empty()) tell_of_damage();
     if (values_of("Horizon").size() > 1 && !are_separate()) tell_of_horizons();
     tell_of_contact();
     tell_of_steps();
@@ -48,21 +43,20 @@ class Differences {
   // The values of a key in the sections of Blocks; "" for a section without it.
   std::set<std::string> values_of(const std::string& key) {
     std::set<std::string> values;
-    if (!blocks_) return values;
-    for (const List& block : blocks_->lists) values.insert(value_of(block, key));
+    for (const List& block : sections_of(deck_, {"Blocks"})) values.insert(value_of(block, key));
     return values;
   }
 
   // True for all but at most one section: then no two of them have bonds.
   bool are_separate() {
-    return std::ranges::count_if(
-               blocks_->lists, [](const List& one) { return to_boolean(value_of(one, "Separate Body")) != true; }) <= 1;
+    return std::ranges::count_if(sections_of(deck_, {"Blocks"}), [](const List& one) {
+             return to_boolean(value_of(one, "Separate Body")) != true;
+           }) <= 1;
   }
 
   bool has_condition(const std::string& type) {
-    const List* conditions = find_list(deck_, "Boundary Conditions");
-    return conditions &&
-           std::ranges::any_of(conditions->lists, [&](const List& one) { return value_of(one, "Type") == type; });
+    return std::ranges::any_of(sections_of(deck_, {"Boundary Conditions"}),
+                               [&](const List& one) { return value_of(one, "Type") == type; });
   }
 
   bool has_loads() { return has_condition("Body Force"); }
@@ -119,9 +113,7 @@ class Differences {
 
   // Both programs integrate rates of deformation.
   void tell_of_laws() {
-    List* materials = find_list(deck_, "Materials");
-    if (!materials) return;
-    for (const List& material : materials->lists) {
+    for (const List& material : sections_of(deck_, {"Materials"})) {
       const std::string model = value_of(material, "Material Model"), path = "Materials > " + material.name;
       if (!model.ends_with("Correspondence")) continue;
       problems_.note(path,
@@ -140,10 +132,7 @@ class Differences {
   }
 
   void tell_of_contact() {
-    List* contact = find_list(deck_, "Contact");
-    List* models = contact ? find_list(*contact, "Models") : nullptr;
-    if (!models) return;
-    for (const List& model : models->lists) {
+    for (const List& model : sections_of(deck_, {"Contact", "Models"})) {
       if (value_of(model, "Contact Model") != "Short Range Force") continue;
       problems_.note("Contact > Models > " + model.name + " > Contact Radius",
                      "is the distance from which points push each other; those of two bodies that start nearer do so "
@@ -165,12 +154,7 @@ class Differences {
 
   List& deck_;
   Problems& problems_;
-  List* blocks_;
 };
-
-}  // namespace
-
-namespace {
 
 bool has_peridigms_solver(List& deck) {
   const auto is_theirs = [](List& solver) {
@@ -194,11 +178,10 @@ bool has_peridigms_output(List& deck) {
 }
 
 bool has_peridigms_law(List& deck) {
-  const List* materials = find_list(deck, "Materials");
-  return materials && std::ranges::any_of(materials->lists, [](const List& one) {
-           const std::string model = value_of(one, "Material Model");
-           return model.starts_with("Viscoplastic") || model.starts_with("Isotropic Hardening");
-         });
+  return std::ranges::any_of(sections_of(deck, {"Materials"}), [](const List& one) {
+    const std::string model = value_of(one, "Material Model");
+    return model.starts_with("Viscoplastic") || model.starts_with("Isotropic Hardening");
+  });
 }
 
 }  // namespace
@@ -209,8 +192,10 @@ bool is_peridigms(List& deck) {
   return deck.name == "Peridigm" || has_missing_ability(deck) || has_peridigms_law(deck) ||
          section("Compute Class Parameters") || has_peridigms_output(deck) || has_peridigms_solver(deck) ||
          (mesh && has_any(*mesh, {"Omit Bonds Between Blocks", "Store Exodus Mesh"})) ||
-         any_section_has(section("Materials"), {"Hourglass Coefficient", "Apply Shear Correction Factor", "Enable Flaw",
-                                                "Disable Plasticity", "Apply Automatic Differentiation Jacobian"});
+         std::ranges::any_of(sections_of(deck, {"Materials"}), [](const List& one) {
+           return has_any(one, {"Hourglass Coefficient", "Apply Shear Correction Factor", "Enable Flaw",
+                                "Disable Plasticity", "Apply Automatic Differentiation Jacobian"});
+         });
 }
 
 bool may_be_peridigms(List& deck) {

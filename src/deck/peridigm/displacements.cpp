@@ -54,10 +54,10 @@ void translate(List& condition, double time, Problems& problems) {
 }  // namespace
 
 void translate_displacements(List& deck, Problems& problems) {
-  List *conditions = find_list(deck, "Boundary Conditions"), *solver = find_list(deck, "Solver");
-  if (!conditions || !solver) return;
+  const List* solver = find_list(deck, "Solver");
+  if (!solver) return;
   const double time = real_of(*solver, "Initial Time").value_or(0);
-  for (List& condition : conditions->lists) translate(condition, time, problems);
+  for (List& condition : sections_of(deck, {"Boundary Conditions"})) translate(condition, time, problems);
 }
 
 }  // namespace strut::deck

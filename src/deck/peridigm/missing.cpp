@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/errors.hpp"
 #include "base/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
 
@@ -95,58 +96,39 @@ const std::map<std::string, std::string> missing_of_mesh = {
 };
 
 // Replaces a missing law by a plain one, so that the rest of the deck can be checked.
-void stand_in(List& material) {
-  material.lists.clear();
-  material.parameters = {{"Material Model", "string", "Elastic"},
-                         {"Density", "double", "1"},
-                         {"Bulk Modulus", "double", "1"},
-                         {"Shear Modulus", "double", "1"}};
+void stand_in_for_law(List& deck, List& material, const std::string& why) {
+  material = {material.name,
+              {{"Material Model", "string", "Elastic"},
+               {"Density", "double", "1"},
+               {"Bulk Modulus", "double", "1"},
+               {"Shear Modulus", "double", "1"}},
+              {}};
+  if (why != associated) return;
+  std::erase_if(deck.parameters, [](const Parameter& one) { return one.name.starts_with("Enable Bond-Associated"); });
 }
 
-void refuse_laws(List& deck, Problems& problems) {
-  bool any_associated = false;
-  if (List* materials = find_list(deck, "Materials")) {
-    for (List& material : materials->lists) {
-      const auto missing = missing_laws.find(value_of(material, "Material Model"));
-      if (missing == missing_laws.end()) continue;
-      any_associated = any_associated || missing->second == associated;
-      problems.add("Materials > " + material.name + " > Material Model",
-                   "'" + missing->first + "': " + missing->second);
-      stand_in(material);
-    }
-  }
-  if (any_associated) {
-    std::erase_if(deck.parameters, [](const Parameter& one) { return one.name.starts_with("Enable Bond-Associated"); });
+void stand_in_for_damage(List& deck, List& model, const std::string&) {
+  model = {model.name, {{"Damage Model", "string", "Critical Stretch"}, {"Critical Stretch", "double", "1"}}, {}};
+  for (List& block : sections_of(deck, {"Blocks"})) {
+    if (value_of(block, "Damage Model") == model.name) erase_parameter(block, "Damage Model");
   }
 }
 
-void refuse_damage(List& deck, Problems& problems) {
-  List *models = find_list(deck, "Damage Models"), *blocks = find_list(deck, "Blocks");
-  if (!models) return;
-  for (List& model : models->lists) {
-    const auto missing = missing_damage.find(value_of(model, "Damage Model"));
-    if (missing == missing_damage.end()) continue;
-    problems.add("Damage Models > " + model.name + " > Damage Model", "'" + missing->first + "': " + missing->second);
-    model.lists.clear();
-    model.parameters = {{"Damage Model", "string", "Critical Stretch"}, {"Critical Stretch", "double", "1"}};
-    if (!blocks) continue;
-    for (List& block : blocks->lists) {
-      if (value_of(block, "Damage Model") == model.name) erase_parameter(block, "Damage Model");
-    }
-  }
+void stand_in_for_contact(List&, List& model, const std::string&) {
+  find_parameter(model, "Contact Model")->value = "Short Range Force";
+  erase_parameter(model, "Friction Coefficient");
 }
 
-void refuse_contact(List& deck, Problems& problems) {
-  List* contact = find_list(deck, "Contact");
-  List* models = contact ? find_list(*contact, "Models") : nullptr;
-  if (!models) return;
-  for (List& model : models->lists) {
-    const auto missing = missing_contact.find(value_of(model, "Contact Model"));
-    if (missing == missing_contact.end()) continue;
-    problems.add("Contact > Models > " + model.name + " > Contact Model",
-                 "'" + missing->first + "': " + missing->second);
-    find_parameter(model, "Contact Model")->value = "Short Range Force";
-    erase_parameter(model, "Friction Coefficient");
+// `path`: of sections whose `key` may name something that is missing.
+void refuse_models(List& deck, std::initializer_list<const char*> path, const std::string& key,
+                   const std::map<std::string, std::string>& missing,
+                   void (*stand_in)(List& deck, List& model, const std::string& why), Problems& problems) {
+  const std::string section = joined({path.begin(), path.end()}, " > ");
+  for (List& model : sections_of(deck, path)) {
+    const auto found = missing.find(value_of(model, key));
+    if (found == missing.end()) continue;
+    problems.add(section + " > " + model.name + " > " + key, "'" + found->first + "': " + found->second);
+    stand_in(deck, model, found->second);
   }
 }
 
@@ -167,9 +149,7 @@ void refuse_solvers(List& deck, Problems& problems) {
 
 // A horizon that is an expression, and the default one of a block that has none.
 void refuse_horizons(List& deck, Problems& problems) {
-  List* blocks = find_list(deck, "Blocks");
-  if (!blocks) return;
-  for (List& block : blocks->lists) {
+  for (List& block : sections_of(deck, {"Blocks"})) {
     const std::string horizon = value_of(block, "Horizon");
     const bool is_function = horizon.find_first_of("xyz") != std::string::npos;
     if (!is_function || to_real(horizon)) continue;
@@ -214,17 +194,16 @@ void refuse_sections(List& deck, Problems& problems) {
 }  // namespace
 
 bool has_missing_ability(List& deck) {
-  List* materials = find_list(deck, "Materials");
   const auto is_missing = [](const List& one) { return missing_laws.contains(value_of(one, "Material Model")); };
-  return find_list(deck, "Data Loader") || (materials && std::ranges::any_of(materials->lists, is_missing));
+  return find_list(deck, "Data Loader") || std::ranges::any_of(sections_of(deck, {"Materials"}), is_missing);
 }
 
 void refuse_what_is_missing(List& deck, Problems& problems) {
   refuse_sections(deck, problems);
-  refuse_laws(deck, problems);
-  refuse_damage(deck, problems);
+  refuse_models(deck, {"Materials"}, "Material Model", missing_laws, stand_in_for_law, problems);
+  refuse_models(deck, {"Damage Models"}, "Damage Model", missing_damage, stand_in_for_damage, problems);
   refuse_conditions(deck, problems);
-  refuse_contact(deck, problems);
+  refuse_models(deck, {"Contact", "Models"}, "Contact Model", missing_contact, stand_in_for_contact, problems);
   refuse_solvers(deck, problems);
   refuse_horizons(deck, problems);
 }

@@ -144,13 +144,13 @@ void translate_needleman(List& material, const std::string& path, Problems& prob
 
 // Here the stretch that breaks a bond never includes thermal expansion; Peridigm has a key for that, 0 without it.
 void drop_expansion_of_bonds(List& deck, bool is_theirs, Problems& problems) {
-  List *models = find_list(deck, "Damage Models"), *materials = find_list(deck, "Materials");
-  if (!models || !materials) return;
+  if (!find_list(deck, "Materials")) return;
   const std::string key = "Thermal Expansion Coefficient";
-  for (List& model : models->lists) {
+  for (List& model : sections_of(deck, {"Damage Models"})) {
     const auto given = real_of(model, key);
-    const bool is_same = std::ranges::all_of(
-        materials->lists, [&](const List& one) { return real_of(one, key).value_or(0) == given.value_or(0); });
+    const bool is_same = std::ranges::all_of(sections_of(deck, {"Materials"}), [&](const List& one) {
+      return real_of(one, key).value_or(0) == given.value_or(0);
+    });
     if (!is_same && (given || is_theirs)) {
       problems.note(path_to("Damage Models > " + model.name, key),
                     std::string(given ? "has no effect here" : "is missing") +
@@ -162,9 +162,7 @@ void drop_expansion_of_bonds(List& deck, bool is_theirs, Problems& problems) {
 }
 
 void translate_materials(List& deck, bool is_theirs, Problems& problems) {
-  List* materials = find_list(deck, "Materials");
-  if (!materials) return;
-  for (List& material : materials->lists) {
+  for (List& material : sections_of(deck, {"Materials"})) {
     const std::string path = "Materials > " + material.name;
     translate_isotropic_hardening(material);
     translate_needleman(material, path, problems);
@@ -289,15 +287,12 @@ void read_mesh_as_peridigm(List& deck, Problems& problems) {
   List* mesh = find_list(deck, "Discretization");
   if (!mesh) return;
   add_defaults(*mesh, problems);
-  List* filters = find_list(*mesh, "Bond Filters");
-  if (!filters) return;
-  for (List& filter : filters->lists) straighten(filter, "Discretization > Bond Filters > " + filter.name, problems);
+  for (List& filter : sections_of(*mesh, {"Bond Filters"}))
+    straighten(filter, "Discretization > Bond Filters > " + filter.name, problems);
 }
 
 void translate_conditions(List& deck) {
-  List* conditions = find_list(deck, "Boundary Conditions");
-  if (!conditions) return;
-  for (List& condition : conditions->lists) {
+  for (List& condition : sections_of(deck, {"Boundary Conditions"})) {
     Parameter* set = find_parameter(condition, "Node Set");
     if (set && (tidied(set->value) == "full domain" || set->value == "All")) set->value = "all";
     Parameter* axis = find_parameter(condition, "Coordinate");
@@ -321,6 +316,15 @@ std::string tidied(std::string text) {
 Parameter* find_parameter(List& list, const std::string& name) { return find(list.parameters, name); }
 
 List* find_list(List& list, const std::string& name) { return find(list.lists, name); }
+
+std::span<List> sections_of(List& deck, std::initializer_list<const char*> path) {
+  List* list = &deck;
+  for (const char* name : path) {
+    list = find_list(*list, name);
+    if (!list) return {};
+  }
+  return list->lists;
+}
 
 std::string value_of(const List& list, const std::string& name) {
   for (const Parameter& one : list.parameters) {

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "deck/problems.hpp"
@@ -45,6 +47,8 @@ void tell_differences(List& deck, Problems& problems);
 // Parameters and sections of a list by name; null if there is none.
 Parameter* find_parameter(List& list, const std::string& name);
 List* find_list(List& list, const std::string& name);
+// The sections at a path, {"Contact", "Models"}; none if it is not there.
+std::span<List> sections_of(List& deck, std::initializer_list<const char*> path);
 std::string value_of(const List& list, const std::string& name);  // "" if there is none
 std::optional<double> real_of(const List& list, const std::string& name);
 std::string tidied(std::string text);  // in lower case, with blanks for _: as Peridigm compares words

@@ -47,46 +47,15 @@ const std::map<std::string, std::string> missing_fields = {
 };
 
 // More of them, with nothing near.
-const std::vector<std::string> other_missing_fields = {"Bond_Damage_Parameter",
-                                                       "Bond_Equivalent_Plastic_Strain",
-                                                       "Bond_Stress_Triaxiality",
-                                                       "Bond_Visualization",
-                                                       "Bond_Von_Mises_Stress",
-                                                       "Broken_Bond_Volume_Averaged",
-                                                       "Concentration",
-                                                       "Concentration_Flux_Divergence",
-                                                       "Critical_Stretch",
-                                                       "Deformation_Gradient_Dot",
-                                                       "Deformation_Gradient_Inv",
-                                                       "Deviatoric_Back_Extension",
-                                                       "Deviatoric_Normalization",
-                                                       "Deviatoric_Plastic_Extension",
-                                                       "Dilatation_Normalization",
-                                                       "Error",
-                                                       "Fluid_Concentration",
-                                                       "Fluid_Pressure_U",
-                                                       "Fluid_Pressure_V",
-                                                       "Fluid_Pressure_Y",
-                                                       "Flux_Density",
-                                                       "Flux_Divergence",
-                                                       "Flying_Point_Flag",
-                                                       "Gradient_Weight",
-                                                       "Gradient_Weight_Evaluation_Flag",
-                                                       "Influence_State",
-                                                       "Interface_Aperture",
-                                                       "Neighbor_Centroid",
-                                                       "Neighbor_Volume",
-                                                       "Nonhomogeneous_Integral",
-                                                       "Normalized_Weighted_Volume",
-                                                       "OBC_Functional",
-                                                       "Pals_Pressure",
-                                                       "Piola_Stress",
-                                                       "Quadrature_Weights",
-                                                       "Self_Centroid",
-                                                       "Self_Volume",
-                                                       "Stress_Integral",
-                                                       "Stress_Triaxiality",
-                                                       "Velocity_Gradient"};
+const std::vector<std::string> other_missing_fields = to_words(
+    "Bond_Damage_Parameter Bond_Equivalent_Plastic_Strain Bond_Stress_Triaxiality Bond_Visualization "
+    "Bond_Von_Mises_Stress Broken_Bond_Volume_Averaged Concentration Concentration_Flux_Divergence Critical_Stretch "
+    "Deformation_Gradient_Dot Deformation_Gradient_Inv Deviatoric_Back_Extension Deviatoric_Normalization "
+    "Deviatoric_Plastic_Extension Dilatation_Normalization Error Fluid_Concentration Fluid_Pressure_U Fluid_Pressure_V "
+    "Fluid_Pressure_Y Flux_Density Flux_Divergence Flying_Point_Flag Gradient_Weight Gradient_Weight_Evaluation_Flag "
+    "Influence_State Interface_Aperture Neighbor_Centroid Neighbor_Volume Nonhomogeneous_Integral "
+    "Normalized_Weighted_Volume OBC_Functional Pals_Pressure Piola_Stress Quadrature_Weights Self_Centroid Self_Volume "
+    "Stress_Integral Stress_Triaxiality Velocity_Gradient");
 
 // ½ m v⁻·v⁺ with the velocities before and after a force: it conserves energy, but it can be negative.
 const std::string kinetic =
@@ -104,26 +73,13 @@ const std::map<std::string, std::string> global_columns = {
     {"Nonlinear_Solver_Iterations", ""},
 };
 
-const std::vector<std::string> tensors = {"Deformation_Gradient",
-                                          "Rotation_Tensor",
-                                          "Left_Stretch_Tensor",
-                                          "Cauchy_Stress",
-                                          "Unrotated_Cauchy_Stress",
-                                          "Shape_Tensor_Inverse",
-                                          "Unrotated_Rate_Of_Deformation",
-                                          "Strain",
-                                          "Stress",
-                                          "Partial_Stress"};
+const std::vector<std::string> tensors = to_words(
+    "Deformation_Gradient Rotation_Tensor Left_Stretch_Tensor Cauchy_Stress Unrotated_Cauchy_Stress "
+    "Shape_Tensor_Inverse Unrotated_Rate_Of_Deformation Strain Stress Partial_Stress");
 
 const std::vector<std::string> vectors = {"Displacement", "Velocity", "Force", "Force_Density"};
-const std::vector<std::string> scalars = {"Von_Mises_Stress",
-                                          "Equivalent_Plastic_Strain",
-                                          "Dilatation",
-                                          "Weighted_Volume",
-                                          "Number_Of_Neighbors",
-                                          "Volume",
-                                          "Damage",
-                                          "Horizon"};
+const std::vector<std::string> scalars = to_words(
+    "Von_Mises_Stress Equivalent_Plastic_Strain Dilatation Weighted_Volume Number_Of_Neighbors Volume Damage Horizon");
 
 bool among(const std::vector<std::string>& all, const std::string& name) {
   return std::find(all.begin(), all.end(), name) != all.end();

@@ -52,13 +52,10 @@ void look_in_working_folder(List& deck, const fs::path& folder, Problems& proble
   List *mesh = find_list(deck, "Discretization"), *conditions = find_list(deck, "Boundary Conditions");
   Parameter* file = mesh ? find_parameter(*mesh, "Input Mesh File") : nullptr;
   if (file) look_in_working_folder(*file, "Discretization > Input Mesh File", folder, problems);
-  List* filters = mesh ? find_list(*mesh, "Bond Filters") : nullptr;
-  if (filters) {
-    for (List& filter : filters->lists) {
-      Parameter* shells = find_parameter(filter, "File Name");
-      const std::string path = "Discretization > Bond Filters > " + filter.name + " > File Name";
-      if (shells) look_in_working_folder(*shells, path, folder, problems);
-    }
+  for (List& filter : sections_of(deck, {"Discretization", "Bond Filters"})) {
+    Parameter* shells = find_parameter(filter, "File Name");
+    const std::string path = "Discretization > Bond Filters > " + filter.name + " > File Name";
+    if (shells) look_in_working_folder(*shells, path, folder, problems);
   }
   if (!conditions) return;
   for (Parameter& set : conditions->parameters) {

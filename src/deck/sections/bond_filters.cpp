@@ -72,13 +72,8 @@ Crack read_disk(const Values& values, Problems& problems) {
   return DiskCrack{center.of(values), normal.direction(values, problems), values[radius]};
 }
 
-struct FilterEntry {
-  Section schema;                                           // named by the values of "Type"
-  Crack (*read)(const Values& values, Problems& problems);  // null for files
-};
-
-const std::vector<FilterEntry>& entries() {
-  static const std::vector<FilterEntry> all = {
+const std::vector<Case<Crack, Problems&>>& entries() {
+  static const std::vector<Case<Crack, Problems&>> all = {
       {{.name = "Rectangular_Plane",
         .meaning = "A rectangle.",
         .keys = keys_of({normal, corner, bottom}, {bottom_length, side_length})},
@@ -88,7 +83,7 @@ const std::vector<FilterEntry>& entries() {
         .meaning = "The surface of a mesh of shells; a quadrilateral is two triangles. Every bond looks at every "
                    "triangle.",
         .keys = {shells}},
-       nullptr}};
+       nullptr}};  // read_shell_filters
   return all;
 }
 
@@ -104,8 +99,8 @@ Section bond_filters_section() {
 std::vector<Crack> read_bond_filters(const Values& discretization, Problems& problems) {
   std::vector<Crack> cracks;
   for (const Values& section : discretization.section(name).sections()) {
-    const FilterEntry* entry = chosen_of(entries(), section);
-    if (entry && entry->read) cracks.push_back(entry->read(section, problems));
+    const auto* entry = chosen_of(entries(), section);
+    if (entry && entry->make) cracks.push_back(entry->make(section, problems));
   }
   return cracks;
 }

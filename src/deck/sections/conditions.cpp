@@ -106,13 +106,8 @@ ConditionPrototype read_periodic_sides(const Values& values, Problems& problems)
   return sides;
 }
 
-struct ConditionEntry {
-  Section schema;  // named by the values of "Type"
-  ConditionPrototype (*read)(const Values& values, Problems& problems);
-};
-
-const std::vector<ConditionEntry>& entries() {
-  static const std::vector<ConditionEntry> all = {
+const std::vector<Case<ConditionPrototype, Problems&>>& entries() {
+  static const std::vector<Case<ConditionPrototype, Problems&>> all = {
       {along_axes("Initial Velocity", "m/s", "Velocity at the initial time."), read_initial_velocity},
       {along_axes(
            "Initial Displacement", "m",
@@ -138,7 +133,7 @@ Condition read_condition(const Values& values, Problems& problems) {
   Condition condition;
   condition.name = values.name();
   condition.node_set = values[node_set];
-  if (const ConditionEntry* entry = chosen_of(entries(), values)) condition.kind = entry->read(values, problems);
+  if (const auto* entry = chosen_of(entries(), values)) condition.kind = entry->make(values, problems);
   return condition;
 }
 

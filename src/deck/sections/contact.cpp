@@ -2,12 +2,85 @@
 
 #include <algorithm>
 
-#include "deck/sections/contact_laws.hpp"
 #include "deck/sections/several_sections.hpp"
 
 namespace strut::deck {
 
 namespace {
+
+// ---- Laws: the keys of each, and how it is made from them. A new law is one entry.
+
+const RealKey radius({.name = "Contact Radius",
+                      .unit = "m",
+                      .range = positive,
+                      .meaning = "r_c: points closer than this repel each other, at most the initial distance of a pair, "
+                                 "within a body 0.9 of it. A good choice is one spacing."});
+
+const RealKey friction(
+    {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb friction."});
+
+const RealKey penalty({.name = "Spring Constant", .unit = "Pa", .range = positive, .meaning = "K_p."});
+
+Section short_range_force() {
+  return {
+      .name = "Short Range Force",
+      .meaning = "Force between points f = K_c (r_c − d) V₁ V₂, K_c = 18 K_p/(π δ⁵), d the distance, δ the horizon.",
+      .keys = {radius, penalty}};
+}
+
+contact::Law make_penalty(const Values& model) {
+  return contact::PenaltyLaw{.radius = model[radius], .penalty = model[penalty]};
+}
+
+const RealKey effective_modulus({.name = "Effective Modulus",
+                                 .unit = "Pa",
+                                 .range = positive,
+                                 .meaning = "E*: 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂."});
+
+Section hertz() {
+  return {.name = "Hertz",
+          .meaning =
+              "Elastic spheres: f = 4/3 E* √R* (r_c − d)^(3/2) with 1/R* = 1/R₁ + 1/R₂, R half the edge of a "
+              "cube with the volume of the point, d the distance.",
+          .keys = {radius, effective_modulus}};
+}
+
+contact::Law make_hertz(const Values& model) {
+  return contact::HertzLaw{.radius = model[radius], .effective_modulus = model[effective_modulus]};
+}
+
+const RealKey stiffness_factor(
+    {.name = "Stiffness Factor",
+     .range = positive,
+     .fallback = "0.25",
+     .meaning = "Stiffness over that of a layer one spacing thick: a pressure p makes an overlap of p/(factor M) "
+                "spacings, M the longitudinal modulus. 0.25 hardly changes the critical time step."});
+
+const RealKey largest_overlap(
+    {.name = "Largest Overlap",
+     .unit = "spacings",
+     .range = {.low = 0, .high = 1},
+     .fallback = "0.5",
+     .meaning =
+         "The pressure grows like 1/(1 - overlap/limit), from 0.95 of the limit on along its tangent. 0: no limit."});
+
+Section surface() {
+  return {.name = "Surface",
+          .meaning = "Contact between smooth surfaces at the faces of the cells, without a constant to choose.",
+          .keys = {stiffness_factor, largest_overlap}};
+}
+
+contact::Law make_surface(const Values& model) {
+  return contact::SurfaceLaw{.factor = model[stiffness_factor], .largest_overlap = model[largest_overlap]};
+}
+
+const std::vector<Case<contact::Law>>& contact_laws() {
+  static const std::vector<Case<contact::Law>> all = {
+      {surface(), make_surface}, {short_range_force(), make_penalty}, {hertz(), make_hertz}};
+  return all;
+}
+
+// ---- Sections
 
 const char* const name = "Contact";
 const char* const models_name = "Models";
@@ -25,11 +98,14 @@ const OptionalKey<std::string> second_block({.name = "Second Block",
 const TextKey model({.name = "Contact Model", .meaning = "A section of Models."});
 
 Section models_section() {
-  Section one{.name = any_name, .required = true, .meaning = "One contact model.", .keys = contact_law_keys()};
+  Key law{.name = "Contact Model",
+          .meaning = "Constitutive law.",
+          .hints = {{"Time-Dependent Short Range Force", "there are no coefficients that depend on time"}}};
+  Section one{.name = any_name, .required = true, .meaning = "One contact model.", .keys = {friction}};
   return {.name = models_name,
           .required = true,
           .meaning = "Models by name.",
-          .sections = {with_cases(std::move(one), contact_law_key(), contact_law_cases())}};
+          .sections = {with_cases(std::move(one), std::move(law), schemas_of(contact_laws()))}};
 }
 
 Section interactions_section() {
@@ -84,7 +160,8 @@ Section contact_section() {
 std::vector<ContactModel> read_contact_models(const Values& deck) {
   std::vector<ContactModel> all;
   for (const Values& section : deck.section(name).section(models_name).sections()) {
-    all.push_back({section.name(), read_contact_law(section)});
+    const auto* law = chosen_of(contact_laws(), section);  // the default law if the selection itself is wrong
+    all.push_back({section.name(), {law ? law->make(section) : contact::Law(), section[friction]}});
   }
   return all;
 }

@@ -132,13 +132,8 @@ DamageModel read_stretch_over_time(const Values& values, Problems& problems) {
   return {.critical_stretch = stretch};
 }
 
-struct ModelEntry {
-  Section schema;  // named by the values of "Damage Model"
-  DamageModel (*read)(const Values& values, Problems& problems);
-};
-
-const std::vector<ModelEntry>& entries() {
-  static const std::vector<ModelEntry> all = {
+const std::vector<Case<DamageModel, Problems&>>& entries() {
+  static const std::vector<Case<DamageModel, Problems&>> all = {
       {{.name = "Critical Stretch",
         .meaning = "A bond breaks where its stretch exceeds s_c, between two blocks the lesser s_c.",
         .keys = {critical_stretch, fracture_energy}},
@@ -192,7 +187,7 @@ std::vector<NamedDamageModel> read_damage_models(const Values& deck, Problems& p
   std::vector<NamedDamageModel> all;
   for (const Values& section : deck.section(name).sections()) {
     NamedDamageModel one{section.name(), {}};
-    if (const ModelEntry* entry = chosen_of(entries(), section)) one.model = entry->read(section, problems);
+    if (const auto* entry = chosen_of(entries(), section)) one.model = entry->make(section, problems);
     all.push_back(one);
   }
   return all;

@@ -1,4 +1,5 @@
-// The section Restart: checkpoints from which a run can be resumed.
+// The sections Restart, checkpoints from which a run can be resumed, and Start From, the state in which another run has
+// ended.
 #pragma once
 
 #include <filesystem>
@@ -22,5 +23,13 @@ struct Restart {
 Section restart_section();
 // `has_output`: the run writes frames; it keeps the state of the last one.
 Restart read_restart(const Values& deck, const std::filesystem::path& deck_file, bool has_output, Problems& problems);
+
+struct StartFrom {
+  std::filesystem::path checkpoint;      // relative to the working folder
+  std::optional<bool> keeps_velocities;  // nullopt: after explicit steps, not after equilibria
+};
+
+Section start_from_section();
+std::optional<StartFrom> read_start_from(const Values& deck);  // nullopt without the section
 
 }  // namespace strut::deck

@@ -276,7 +276,8 @@ void Equilibrium::begin_flow_of_cells() {
   committed_.restore_materials(body_);
 }
 
-// The deck's check (deck/sections/inertia.cpp) refuses the others, unless explicit steps follow, in which they break.
+// The deck's check (deck/sections/combinations.cpp) refuses the others, unless explicit steps follow, in which they
+// break.
 bool Equilibrium::may_break() const {
   return fracture_ && hindrance_of_breaks(body_).empty() && !tools_.any() && !contact_.any();
 }

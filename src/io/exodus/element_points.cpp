@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/mesh_points.hpp"
 #include "io/exodus/side_faces.hpp"
@@ -167,10 +168,8 @@ void check_corners(const MeshSlice& slice, const std::string& file) {
 
 void check_volume(double volume, const Mesh::Block& block, std::int64_t element, const std::string& file) {
   if (volume > 0 && std::isfinite(volume)) return;
-  std::ostringstream text;
-  text << file << ": block '" << block.name << "', element " << element + 1 << ": volume " << volume
-       << " m³, expected a positive one (inside out, flat or damaged?)";
-  throw Error(text.str());
+  throw Error(text_of(file, ": block '", block.name, "', element ", element + 1, ": volume ", volume,
+                      " m³, expected a positive one (inside out, flat or damaged?)"));
 }
 
 }  // namespace strut::io

@@ -101,28 +101,7 @@ struct PartialCell {
   Tensor surface_moments = Tensor::Zero();  // ∫ n ⊗ (x − centroid) dA over it, m³
 };
 // The names of the attributes in the file, in the order of the members.
-inline constexpr std::array<const char*, 22> partial_cell_attributes{"volume",
-                                                                     "centroid_x",
-                                                                     "centroid_y",
-                                                                     "centroid_z",
-                                                                     "moment_xx",
-                                                                     "moment_yy",
-                                                                     "moment_zz",
-                                                                     "moment_xy",
-                                                                     "moment_yz",
-                                                                     "moment_zx",
-                                                                     "surface_x",
-                                                                     "surface_y",
-                                                                     "surface_z",
-                                                                     "surface_moment_xx",
-                                                                     "surface_moment_xy",
-                                                                     "surface_moment_xz",
-                                                                     "surface_moment_yx",
-                                                                     "surface_moment_yy",
-                                                                     "surface_moment_yz",
-                                                                     "surface_moment_zx",
-                                                                     "surface_moment_zy",
-                                                                     "surface_moment_zz"};
+extern const std::vector<std::string> partial_cell_attributes;
 
 // A mesh made by a tool, for tools/ and tests.
 struct Mesh {

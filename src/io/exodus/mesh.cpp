@@ -36,9 +36,7 @@ std::vector<ExodusFile::Block> blocks_of(const Mesh& mesh) {
     if (block.nodes.size() % size != 0) throw Error("the last element of block '" + block.name + "' lacks nodes");
     blocks.push_back({ids[b], block.name, block.type, std::ssize(block.nodes) / size, size, {}});
     if (block.type == "SPHERE") blocks.back().attributes = {"radius", "volume"};
-    if (!block.cells.empty()) {
-      blocks.back().attributes.assign(partial_cell_attributes.begin(), partial_cell_attributes.end());
-    }
+    if (!block.cells.empty()) blocks.back().attributes = partial_cell_attributes;
   }
   return blocks;
 }

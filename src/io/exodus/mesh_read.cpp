@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/errors.hpp"
+#include "base/numbers.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus_words.hpp"
 
@@ -57,7 +58,7 @@ std::optional<int> attribute_of(const ExodusFile::Block& block, const std::strin
 std::vector<int> cell_columns(const ExodusFile::Block& block, std::string& missing) {
   std::vector<int> columns;
   bool has_moments = false;
-  for (const std::string name : partial_cell_attributes) {
+  for (const std::string& name : partial_cell_attributes) {
     const auto found = std::find(block.attributes.begin(), block.attributes.end(), name);
     const bool is_there = found != block.attributes.end();
     if (is_there) columns.push_back(static_cast<int>(found - block.attributes.begin()));
@@ -201,6 +202,11 @@ void MeshFile::numbers(On on, std::int64_t begin, std::span<std::int64_t> values
   const std::vector<std::int64_t> read = file_.numbers(on, begin, std::ssize(values));
   std::copy(read.begin(), read.end(), values.begin());
 }
+
+const std::vector<std::string> partial_cell_attributes = to_words(
+    "volume centroid_x centroid_y centroid_z moment_xx moment_yy moment_zz moment_xy moment_yz moment_zx surface_x "
+    "surface_y surface_z surface_moment_xx surface_moment_xy surface_moment_xz surface_moment_yx surface_moment_yy "
+    "surface_moment_yz surface_moment_zx surface_moment_zy surface_moment_zz");
 
 double& member(PartialCell& cell, std::size_t attribute) {
   if (attribute == 0) return cell.volume;

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/mesh_points.hpp"
 #include "io/exodus/surface.hpp"
@@ -136,10 +136,8 @@ class Cells {
 
 void check_parts(double volume, std::int64_t number, const std::string& file) {
   if (volume > 0) return;
-  std::ostringstream text;
-  text << file << ": node " << number << ": its parts of the elements around it add up to " << volume
-       << " m³, expected a positive volume (elements too distorted?)";
-  throw Error(text.str());
+  throw Error(text_of(file, ": node ", number, ": its parts of the elements around it add up to ", volume,
+                      " m³, expected a positive volume (elements too distorted?)"));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "base/parallel/gather_scatter.hpp"
 #include "mechanics/rigid_motion.hpp"
-#include "output/observables.hpp"
+#include "output/means.hpp"
 #include "regression/bodies.hpp"
 
 namespace strut::regression {
@@ -106,10 +106,7 @@ TEST(Nodes, ExtremesAreThoseOfTheNodes) {
   Simulation run = simulation(folder, graded_mesh());
   const Body& body = run.body();
   const std::vector<Observable> all = observables(body);
-  const auto value = [&](const std::string& name) {
-    const Extreme extreme(all, body.domain.cloud, name, "test");
-    return extreme.value(folder.world.max(extreme.local(body)));
-  };
+  const auto value = [&](const std::string& name) { return reduction_of(all, {}, body, name, "test").values(body)[0]; };
   const double height = 1e-3 * (std::pow(1.08, 8) - 1) / 0.08;
   EXPECT_NEAR(value("Max_Coordinate_Z"), height, 1e-15);
   EXPECT_NEAR(value("Min_Coordinate_Z(top)"), height, 1e-15);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "deck/values.hpp"
-#include "deck/whole.hpp"
 #include "deck_under_test.hpp"
 
 namespace strut::deck {

@@ -294,7 +294,7 @@ TEST_F(BrokenFile, AttributesOfSpheresAreReadByTheirNames) {
 
 // Whole hexahedra would be another body.
 TEST_F(BrokenFile, PartlyFilledElementsWithoutOneOfTheirAttributes) {
-  std::vector<std::string> names(partial_cell_attributes.begin(), partial_cell_attributes.end());
+  std::vector<std::string> names = partial_cell_attributes;
   names.erase(names.begin() + 7);
   run_on_root(world, [&] {
     const ExodusFile file = ExodusFile::create(folder / "cells.g");

@@ -1,4 +1,5 @@
-// Keys without a meaning in equilibria, which have no inertia, or for a law of rates, which has no strain at the start.
+// Checks of what several sections say together: keys without a meaning in equilibria, which have no inertia, or for a
+// law of rates, which has no strain at the start; thermal expansion.
 #pragma once
 
 #include <vector>
@@ -20,5 +21,9 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
 
 void check_initial_strains(const std::vector<Condition>& conditions, const std::vector<Material>& materials,
                            Problems& problems);
+
+// `has_expanded`: bodies may have thermal strains at the start.
+void check_temperatures(const std::vector<Material>& materials, const std::vector<Condition>& conditions,
+                        bool has_expanded, Problems& problems);
 
 }  // namespace strut::deck
