@@ -1,6 +1,6 @@
 // Interface of a contact law between points: the touching distance of two points and, as functions of their overlap,
 // the repulsive force, its slope and the stored energy. A new law needs a type and a word in laws.hpp, and an
-// entry in src/deck/sections/contact_laws.cpp.
+// entry in src/deck/sections/contact.cpp.
 #pragma once
 
 #include <algorithm>
