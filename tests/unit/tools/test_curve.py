@@ -137,6 +137,16 @@ class Extents(InFolder):
         self.assertIsNone(extent.size_of(str(self.folder / "none.g"), "foam"))
         self.assertIsNone(extent.size_of(self.write(np.full((1, 3), 0.5), element=None), "foam"))
 
+    def test_a_lattice_of_points_ends_half_a_step_of_each_axis_beyond_them(self):
+        def grid(*counts):
+            return np.stack(np.meshgrid(*(np.arange(n) + 0.5 for n in counts), indexing="ij"), -1).reshape(-1, 3)
+        edges = np.array([1e-3, 1e-3, 2e-3])
+        irregular = np.random.default_rng(1).random((50, 3)) * 1e-2
+        for places, volume, expected in ((grid(4, 4, 4) * edges, 2e-9, edges), (grid(4, 1, 4) * edges, 2e-9, edges),
+                                         (grid(4, 4, 4)[::3] * edges, 2e-9, edges), (grid(2, 1, 1) * 1e-3, 1e-9, [1e-3] * 3),
+                                         (irregular, 8e-9, 2e-3), (np.zeros((1, 3)), 8e-9, 2e-3)):
+            np.testing.assert_allclose(source.edges_of_cells(places, volume), expected, rtol=1e-9)
+
     def test_cells_that_reach_beyond_the_image_do_not_count_as_full(self):
         # Along x the image ends in the middle of the last cells, which hold a half each; one strut there ends before.
         middles = np.array([[x, y + 0.5, 0.5] for x in (0.5, 1.5, 2.25) for y in range(5)])
