@@ -137,9 +137,11 @@ def motion_of(deck, axis, times):
             way = [value_at(value_in(keys, f"Travel {letter.upper()}"), t) for t in times]
         else:
             continue
-        if None not in way:
-            is_speed = kind == "Prescribed Velocity"
-            moves[name] = cumulative_trapezoid(way, times, initial=0) if is_speed else np.array(way)
+        if None in way:
+            continue
+        moves[name] = cumulative_trapezoid(way, times, initial=0) if kind == "Prescribed Velocity" else np.array(way)
+        if kind.startswith("Rigid ") and deck.section("Start From") is None:
+            moves[name] -= moves[name][0]  # where it stands at the start, bodies are taken as cut off
     return moves
 
 

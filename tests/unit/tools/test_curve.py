@@ -292,6 +292,17 @@ class Runs(InFolder):
         np.testing.assert_allclose(strain, 0.5 * times * (1 - times), atol=1e-7)  # of 20 mm; the rim moves by 1e-9 m
         self.assertEqual(source.material_density(Deck(str(self.folder / "block.xml")), "foam"), 4000)
 
+    def test_where_a_tool_stands_at_the_start_is_no_strain(self):
+        tool = DECK.replace("Prescribed Displacement", "Rigid Plane").replace('"Value"', '"Travel Z"')
+        times = np.linspace(0, 1, 11)
+        self.history({"Time": times, "Reaction_Z(top)": -times, "Reaction_Z(bottom)": times})
+        # A run from the state of another one goes on with its strain.
+        for begin, expected in (("", 0.5 * times), ('<ParameterList name="Start From"/>', 0.1 + 0.5 * times)):
+            deck = tool.replace("-1e-2*t", "-2e-3-1e-2*t").replace('<ParameterList name="History">', f'{begin}<ParameterList name="History">')
+            (self.folder / "block.xml").write_text(deck)
+            self.made("block.xml")
+            np.testing.assert_allclose([float(row[1]) for row in self.table("block-curve.csv")[1:]], expected, atol=1e-9)
+
     def test_the_blow_of_the_first_step_does_not_count(self):
         force = 4e-5 * stress_at(STRAIN)
         columns = {"Time": STRAIN * 20e-3 / 1e-2, "Reaction_Z(top)": -force, "Reaction_Z(bottom)": force}
