@@ -239,7 +239,7 @@ bool Run::Parts::arrive_at_equilibrium() {
   monitor->check_failed(solver.time());
   monitor->check_interpenetration(solver.time(), solver.contact());
   monitor->check_undeclared(solver.time(), solver.contact());
-  monitor->check_tools(solver.time(), solver.conditions(), scene->tools);
+  monitor->check_tools(solver.time(), solver.conditions(), scene->tools, Monitor::Steps::of_load);
   return last;
 }
 
