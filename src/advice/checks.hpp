@@ -25,7 +25,7 @@ struct Situation {
 // ---- without_effect.cpp
 
 // A warning, a line each, of materials and damage models that no block names, models of contact that no interaction
-// names, cracks that cut no bond, and node sets of the deck that hold all points.
+// names, cracks that cut no bond or run through points, and node sets of the deck that hold all points.
 std::string without_effect(const Situation& situation);
 
 // ---- doubled_numbers.cpp
@@ -147,7 +147,8 @@ std::string unheld_bodies(const Situation& situation);
 // ---- filled_tools.cpp
 
 // A warning for each tool with points inside it at the start by more than a hundredth of their spacing;
-// points on its surface, such as nodes of a matching mesh, do not count.
+// points on its surface, such as nodes of a matching mesh, do not count. Else for each tool that stands in whole cubic
+// cells by more than a fiftieth of a spacing, where they end; not in a run from the state of another one.
 std::string filled_tools(const Situation& situation);
 
 // ---- tool_paths.cpp

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "advice/checks.hpp"
@@ -7,7 +9,34 @@ namespace strut {
 
 namespace {
 
-constexpr double least_depth = 0.01;  // of a spacing
+// Of a spacing.
+constexpr double least_depth = 0.01, least_cut = 0.02;
+
+// True if the cell of point i is a whole cube of a lattice: the reach of any other is an estimate.
+bool is_cube(const Domain& domain, int i) {
+  const double edge = domain.cloud.spacings[i];
+  double nearest = std::numeric_limits<double>::infinity();
+  domain.families.for_each(
+      i, [&](int j) { nearest = std::min(nearest, (domain.reference(j) - domain.reference(i)).norm()); });
+  return std::abs(nearest - edge) < 0.01 * edge && std::abs(std::cbrt(domain.volume(i)) - edge) < 1e-6 * edge;
+}
+
+// How far a cell reaches into a tool that its center, at this place, is outside of, m.
+double cut(const RigidTool& tool, const Domain& domain, int i, const Vector& place) {
+  const Surface at = surface(tool.shape, place);
+  return reach_of_cell(domain.cloud, domain.volume(i), i, -at.normal) - std::max(at.gap, 0.0);
+}
+
+// Points that a tool meets at the start.
+struct Met {
+  std::int64_t points = 0;
+  double deepest = 0;  // m
+
+  void add(double depth) { ++points, deepest = std::max(deepest, depth); }
+  void reduce(const Communicator& communicator) {
+    points = communicator.sum(points), deepest = communicator.max(deepest);
+  }
+};
 
 }  // namespace
 
@@ -19,18 +48,26 @@ std::string filled_tools(const Situation& situation) {
   text.precision(3);
   for (std::size_t n = 0; n < tools.size(); ++n) {
     const Vector offset = tools[n].offset(situation.start);
-    double inside = 0, deepest = 0;
+    // Cells that were cut when the mesh was read are not cut by a later run.
+    const bool cuts = tools[n].reaches && !situation.deck.start_from;
+    Met inside, cells;
     for (const int i : tools[n].points) {
-      const double depth = -tools[n].met_by(i, tools[n].shape, scene.body.current(i) - offset).gap;
-      if (depth <= least_depth * domain.cloud.spacings[i]) continue;
-      ++inside;
-      deepest = std::max(deepest, depth);
+      const Vector place = scene.body.current(i) - offset;
+      const double spacing = domain.cloud.spacings[i], depth = -tools[n].met_by(i, tools[n].shape, place).gap;
+      if (depth > least_depth * spacing) inside.add(depth);
+      const double part = cuts ? cut(tools[n], domain, i, place) : 0;
+      if (part > least_cut * spacing && is_cube(domain, i)) cells.add(part);
     }
-    inside = domain.communicator.sum(inside), deepest = domain.communicator.max(deepest);
-    if (inside == 0) continue;
-    text << "WARNING: " << static_cast<std::int64_t>(inside) << " points are inside of the tool '"
-         << scene.tools[n].name << "' at the start, up to " << deepest
-         << " m deep: the first step pushes them out; where should it stand, in m?\n";
+    inside.reduce(domain.communicator), cells.reduce(domain.communicator);
+    if (inside.points > 0) {
+      text << "WARNING: " << inside.points << " points are inside of the tool '" << scene.tools[n].name
+           << "' at the start, up to " << inside.deepest
+           << " m deep: the first step pushes them out; where should it stand, in m?\n";
+    } else if (cells.points > 0) {
+      text << "WARNING: the tool '" << scene.tools[n].name << "' stands in the cells of " << cells.points
+           << " points at the start, up to " << cells.deepest
+           << " m deep: bodies are taken as cut off there; where should it stand, in m?\n";
+    }
   }
   return text.str();
 }

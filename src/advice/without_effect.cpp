@@ -1,7 +1,9 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "setup/families.hpp"
 #include "setup/found_points.hpp"
 
 namespace strut {
@@ -17,7 +19,7 @@ std::string unnamed(const All& all, const std::string& section, const std::strin
   return text;
 }
 
-// The ball around a crack.
+// The ball around a crack; the normal of a surface of triangles is 0.
 struct Ball {
   Vector center, normal;
   double radius;
@@ -28,7 +30,13 @@ Ball around(const RectangularCrack& crack) {
   return {crack.corner + 0.5 * diagonal, crack.normal, 0.5 * diagonal.norm()};
 }
 
-Ball around(const TriangulatedCrack&) { return {}; }
+Ball around(const TriangulatedCrack& crack) {
+  Eigen::AlignedBox3d box;
+  for (const auto& triangle : crack.triangles) {
+    for (const Vector& corner : triangle) box.extend(corner);
+  }
+  return {box.center(), Vector::Zero(), 0.5 * box.diagonal().norm()};
+}
 
 Ball around(const DiskCrack& crack) { return {crack.center, crack.normal, crack.radius}; }
 
@@ -39,15 +47,30 @@ bool may_part(const Ball& crack, const Domain& domain, int i) {
   return std::abs(apart.dot(crack.normal)) <= horizon && apart.norm() <= crack.radius + horizon;
 }
 
-std::string cracks_that_cut_nothing(const deck::Deck& deck, const Domain& domain) {
+// What a deck says of its crack k: the place or the file.
+std::string name_of(std::size_t k, const Ball& ball, const deck::Discretization& discretization) {
+  const std::size_t drawn = discretization.cracks.size();
+  return k < drawn ? "the crack around " + place_text(ball.center)
+                   : "the crack of " + discretization.shells[k - drawn].filename().string();
+}
+
+std::string misplaced_cracks(const deck::Deck& deck, const Body& body) {
+  const Domain& domain = body.domain;
+  const std::vector<Crack> cracks = cracks_of(deck, domain.communicator);
   std::ostringstream text;
-  for (const Crack& crack : deck.discretization.cracks) {
-    const Ball ball = std::visit([](const auto& one) { return around(one); }, crack);  // none is of triangles
-    const bool cuts = std::any_of(domain.separated.begin(), domain.separated.end(),
-                                  [&](const auto& pair) { return may_part(ball, domain, pair.first); });
-    if (domain.communicator.max(cuts ? 1.0 : 0.0) > 0) continue;
-    text << "WARNING: Discretization > Bond Filters: the crack around " << place_text(ball.center)
-         << " cuts no bond; are its lengths in m, and is it in a body?\n";
+  for (std::size_t k = 0; k < cracks.size(); ++k) {
+    const Ball ball = std::visit([](const auto& one) { return around(one); }, cracks[k]);
+    const std::string name = "WARNING: Discretization > Bond Filters: " + name_of(k, ball, deck.discretization);
+    std::vector<int> beside;
+    for (const auto& [i, other] : domain.separated) {
+      if ((beside.empty() || beside.back() != i) && may_part(ball, domain, i)) beside.push_back(i);
+    }
+    if (domain.communicator.max(beside.empty() ? 0.0 : 1.0) == 0)
+      text << name << " cuts no bond; are its lengths in m, and is it in a body?\n";
+    const FoundPoints found = found_points(body, {points_on(cracks[k], beside, domain)})[0];
+    if (found.count == 0) continue;
+    text << name << " runs through " << found.count << " points, one at " << place_text(found.one)
+         << ", which lose their bonds to both sides; expected one between layers of points\n";
   }
   return text.str();
 }
@@ -82,8 +105,7 @@ std::string without_effect(const Situation& situation) {
   return unnamed(deck.materials, "Materials", "no section of Blocks names it", is_of_block) +
          unnamed(deck.damage_models, "Damage Models", "no section of Blocks names it as its Damage Model", has_damage) +
          unnamed(deck.contact_models, "Contact > Models", "no interaction names it", is_of_contact) +
-         cracks_that_cut_nothing(deck, situation.scene.body.domain) +
-         sets_of_all_points(deck, situation.scene.body.domain);
+         misplaced_cracks(deck, situation.scene.body) + sets_of_all_points(deck, situation.scene.body.domain);
 }
 
 }  // namespace strut

@@ -207,7 +207,8 @@ void Monitor::check_undeclared(double time, const contact::Contact& contact) {
   tell_once(undeclared, text.str());
 }
 
-void Monitor::check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools) {
+void Monitor::check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools,
+                          Steps steps) {
   if (tools.empty() || time < next_tools_) return;
   next_tools_ = time + pause_;
   if (!told_[meeting]) check_meeting(time, conditions, tools);
@@ -225,7 +226,10 @@ void Monitor::check_tools(double time, const Conditions& conditions, const std::
         text << at(time) << "the tool '" << name
              << "' stands between points that are bonded to each other: " << locate(body_, found->point)
              << ". Tools stop points only, and one that is thinner than 1.5 spacings, or an edge of it, passes between "
-                "them; expected a finer mesh or a thicker tool";
+                "them"
+             << (steps == Steps::of_load ? ", as does one that goes too far in a load step; expected more load steps, "
+                                         : "; expected ")
+             << "a finer mesh or a thicker tool";
       }
       tell_once(crossing, text.str());
     }

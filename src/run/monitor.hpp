@@ -35,7 +35,9 @@ class Monitor {
   // Omissions of the deck, at some checks: material that passes through material without contact, and tools (named as
   // in `tools`) between points that are bonded to each other.
   void check_undeclared(double time, const contact::Contact& contact);
-  void check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools);
+  enum class Steps { of_time, of_load };
+  void check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools,
+                   Steps steps = Steps::of_time);
 
   void serialize(Archive& archive);
   void serialize_tools(Archive& archive, std::size_t tools);  // `tools`: how many the scene has

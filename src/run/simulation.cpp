@@ -234,7 +234,8 @@ template <class Solver>
 void Run::Parts::watch_bodies(Solver& solver) {
   monitor->check_interpenetration(solver.time(), solver.contact());
   monitor->check_undeclared(solver.time(), solver.contact());
-  monitor->check_tools(solver.time(), solver.conditions(), scene->tools);
+  const auto kind = steps ? Monitor::Steps::of_time : Monitor::Steps::of_load;
+  monitor->check_tools(solver.time(), solver.conditions(), scene->tools, kind);
 }
 
 void Run::Parts::warn_of_fixed_step() {

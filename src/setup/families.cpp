@@ -16,7 +16,8 @@ namespace strut {
 namespace {
 
 // Owned points whose family has no invertible shape tensor; `text` describes the first one.
-std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain, std::string& text) {
+std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain, const std::vector<Crack>& cracks,
+                                   std::string& text) {
   std::vector<int> found;
   std::vector<Formulation> formulations;  // of blocks
   for (const std::string& name : domain.cloud.block_names) {
@@ -35,9 +36,14 @@ std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain,
     found.push_back(i);
     if (found.size() > 1) continue;
     const Vector X = domain.reference(i);
+    const bool is_cut =
+        std::ranges::any_of(cracks, [&](const Crack& crack) { return !points_on(crack, {i}, domain).empty(); });
     text = text_of(word(domain.cloud.at), " ", domain.cloud.element_ids[i], " of block ",
                    domain.cloud.block_names[domain.cloud.blocks[i]], " at (", X[0], ", ", X[1], ", ", X[2], ") m has ",
-                   domain.families.size(i), " neighbors: ", reason);
+                   domain.families.size(i), " neighbors: ", reason,
+                   is_cut ? "; a crack (Bond Filters) runs through it and cuts its bonds to both sides: expected one "
+                            "between layers of points. Move the crack"
+                          : ". Enlarge the horizon, mend the mesh");
   }
   return found;
 }
@@ -53,12 +59,50 @@ PointCloud without(const PointCloud& cloud, const std::vector<int>& dropped) {
 void refuse_degenerate(std::int64_t count, std::string text, const Communicator& communicator) {
   if (!text.empty()) {
     text = "Discretization > Degenerate Points: " + std::to_string(count) + " points have too few neighbors; " + text +
-           ". Enlarge the horizon, mend the mesh, or say \"Drop\" to leave such points out";
+           ", or say \"Drop\" to leave such points out";
   }
   raise_together(communicator, text);
 }
 
+struct FlatCrack {
+  Crack crack;
+  Vector normal;
+};
+
+std::vector<FlatCrack> flat_parts(const Crack& crack) {
+  if (const auto* rectangle = std::get_if<RectangularCrack>(&crack)) return {{crack, rectangle->normal}};
+  if (const auto* disk = std::get_if<DiskCrack>(&crack)) return {{crack, disk->normal}};
+  std::vector<FlatCrack> parts;
+  for (const auto& triangle : std::get<TriangulatedCrack>(crack).triangles) {
+    const Vector normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+    parts.push_back({TriangulatedCrack{{triangle}}, normal});
+  }
+  return parts;
+}
+
 }  // namespace
+
+std::vector<Crack> cracks_of(const deck::Deck& deck, const Communicator& communicator) {
+  std::vector<Crack> cracks = deck.discretization.cracks;
+  for (const auto& file : deck.discretization.shells) {
+    cracks.emplace_back(TriangulatedCrack{io::read_shells(file, communicator)});
+  }
+  return cracks;
+}
+
+std::vector<int> points_on(const Crack& crack, const std::vector<int>& points, const Domain& domain) {
+  const std::vector<FlatCrack> parts = flat_parts(crack);
+  std::vector<int> found;
+  for (const int i : points) {
+    const Vector X = domain.reference(i);
+    const bool is_on = std::ranges::any_of(parts, [&](const FlatCrack& part) {
+      const Vector bond = domain.cloud.spacings[i] * part.normal;
+      return crosses(part.crack, X, X + bond) && crosses(part.crack, X, X - bond);
+    });
+    if (is_on) found.push_back(i);
+  }
+  return found;
+}
 
 // Builds the families of the partitioned cloud and drops degenerate points. Dropping one may make others degenerate.
 Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const std::vector<Mirror>& mirrors,
@@ -67,15 +111,12 @@ Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud
   const Timed timed(phase("Families"));
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   const deck::DegeneratePoints rule = deck.discretization.degenerate;
-  std::vector<Crack> cracks = deck.discretization.cracks;
-  for (const auto& file : deck.discretization.shells) {
-    cracks.emplace_back(TriangulatedCrack{io::read_shells(file, communicator)});
-  }
+  const std::vector<Crack> cracks = cracks_of(deck, communicator);
   PiecesOfPoints before;
   for (;;) {
     Domain domain = make_domain(std::move(cloud), bonds, communicator, cracks, mirrors, periods);
     std::string text;
-    const std::vector<int> degenerate = degenerate_points(deck, domain, text);
+    const std::vector<int> degenerate = degenerate_points(deck, domain, cracks, text);
     const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));
     const bool refuses = rule == deck::DegeneratePoints::error || rule == deck::DegeneratePoints::keep;
     if (count > 0 && refuses) refuse_degenerate(count, text, communicator);

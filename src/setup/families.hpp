@@ -1,6 +1,8 @@
 // Families of the points that remain when those without an invertible shape tensor are dropped.
 #pragma once
 
+#include <vector>
+
 #include "deck/deck.hpp"
 #include "setup/dropped.hpp"
 #include "topology/domain.hpp"
@@ -13,5 +15,11 @@ namespace strut {
 Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const std::vector<Mirror>& mirrors,
                                         const std::vector<Period>& periods, const Communicator& communicator,
                                         Dropped& dropped);
+
+// Collective. The initial cracks of the deck (Bond Filters), last the surfaces that it names by their files.
+std::vector<Crack> cracks_of(const deck::Deck& deck, const Communicator& communicator);
+
+// Those of the owned points that the crack contains, to round-off, so that it cuts their bonds to both sides.
+std::vector<int> points_on(const Crack& crack, const std::vector<int>& points, const Domain& domain);
 
 }  // namespace strut

@@ -137,9 +137,11 @@ def motion_of(deck, axis, times):
             way = [value_at(value_in(keys, f"Travel {letter.upper()}"), t) for t in times]
         else:
             continue
-        if None not in way:
-            is_speed = kind == "Prescribed Velocity"
-            moves[name] = cumulative_trapezoid(way, times, initial=0) if is_speed else np.array(way)
+        if None in way:
+            continue
+        moves[name] = cumulative_trapezoid(way, times, initial=0) if kind == "Prescribed Velocity" else np.array(way)
+        if kind.startswith("Rigid ") and deck.section("Start From") is None:
+            moves[name] -= moves[name][0]  # where it stands at the start, bodies are taken as cut off
     return moves
 
 
@@ -234,7 +236,20 @@ def size_of(deck, block, words, found):
     places = result.reference[nodes]
     at_nodes = deck.get("Discretization", "Points") == "Nodes"
     found["size"] = f"from the points of {result.path}" + ("" if at_nodes else " and half a spacing around them")
-    return np.ptp(places, axis=0) + (0 if at_nodes else np.cbrt(volumes.max()))
+    return np.ptp(places, axis=0) + (0 if at_nodes else edges_of_cells(places, volumes.max()))
+
+
+def edges_of_cells(places, volume):
+    """Edges (m) of the cells around points: the steps of their lattice, if its cells have this volume, else a cube's."""
+    cube = np.cbrt(volume)
+    ways = [np.diff(np.unique(places[:, a])) for a in range(3)]
+    steps = [way[way > 1e-4 * cube] for way in ways]  # smaller ones are round-off
+    edges = np.array([step.min() if len(step) else np.nan for step in steps])
+    alone = np.isnan(edges)  # one layer
+    if alone.any():
+        edges[alone] = (volume / np.prod(edges[~alone]))**(1 / alone.sum())
+    multiples = all(np.allclose(step / edge, np.round(step / edge), rtol=0, atol=1e-3) for step, edge in zip(steps, edges))
+    return edges if multiples and np.isclose(np.prod(edges), volume, rtol=1e-3) else cube
 
 
 def result_of(deck, words):

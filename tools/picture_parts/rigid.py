@@ -53,11 +53,18 @@ class Tool:
         column = f"Reaction_{c}({self.name})"
         if column not in table and (speed or force):
             fail(f"where the tool '{self.name}' is drawn follows from {column}: add it to the deck's History")
-        # The column has the forces on the bodies, as means from row to row.
-        impulse = -np.cumsum(table.get(column, np.zeros(len(times))) * np.diff(times, prepend=times[0]))
+        # The column has the forces on the bodies, as means from row to row. The tool rests in equilibria.
+        flown = np.maximum(times, self._start())
+        impulse = -np.cumsum(table.get(column, np.zeros(len(times))) * np.diff(flown, prepend=flown[0]))
         if force:
-            impulse = impulse + cumulative_trapezoid([self._at(f"Force {c}", force, t) for t in times], times, initial=0)
-        return cumulative_trapezoid(speed + impulse / self.mass, times, initial=0)
+            impulse = impulse + cumulative_trapezoid([self._at(f"Force {c}", force, t) for t in times], flown, initial=0)
+        return cumulative_trapezoid(speed + impulse / self.mass, flown, initial=0)
+
+    def _start(self):
+        """When explicit steps begin that follow equilibria (Solver 2), s."""
+        if self.deck.section("Solver 2") is None:
+            return -np.inf
+        return self._at("Final Time", self.deck.get("Solver", "Final Time", default=""), 0)
 
     def surface(self, low, high):
         """The part of it near the box of the bodies (corners, m), before it travels."""

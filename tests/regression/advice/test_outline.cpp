@@ -1,8 +1,10 @@
 // The lines of a run about its scene before it begins: they reveal wrong units, and count the pieces.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "regression/bodies.hpp"
 #include "run/report.hpp"
@@ -363,9 +365,33 @@ TEST(Tools, ThatAreInsideOfABodyAtTheStartAreToldOf) {
   Parts parts;
   parts.conditions = plane("floor", "Rigid Plane", "all", "0 0 1.7e-3", "0 0 1");
   expect_told(told_of(parts), {"WARNING: 32 points are inside of the tool 'floor' at the start, up to 0.0012 m deep"});
-  parts.conditions =
-      plane("floor", "Rigid Plane", "all", "0 0 0.4e-3", "0 0 1");  // inside of cells alone: they end there
+  parts.conditions = plane("floor", "Rigid Plane", "all", "0 0 0.4e-3", "0 0 1");  // inside of cells alone
+  expect_told(told_of(parts), {"WARNING: the tool 'floor' stands in the cells of 16 points at the start, up to 0.0004 "
+                               "m deep: bodies are taken as cut off there"});
+  parts.conditions = plane("floor", "Rigid Plane", "all", "0 0 0.01e-3", "0 0 1");
   EXPECT_EQ(told_of(parts).find("WARNING"), std::string::npos);
+}
+
+// The reaches of tetrahedra are estimates, larger than from the center to a face. Six share a diagonal of each cube.
+TEST(Tools, ThatTouchTetrahedraStandInNone) {
+  io::Mesh mesh = Lattice().mesh();
+  constexpr std::array<std::array<int, 2>, 6> others{{{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}}};
+  for (io::Mesh::Block& block : mesh.blocks) {
+    const std::vector<int> corners = std::exchange(block.nodes, {});
+    block.type = "TET4";
+    for (std::size_t n = 0; n < corners.size(); n += 8) {
+      for (const auto& [a, b] : others) {
+        for (const int corner : {0, a, b, 6}) block.nodes.push_back(corners[n + corner]);
+      }
+    }
+  }
+  const RunFolder folder;
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "tetrahedra.g", mesh); });
+  Parts parts;
+  parts.mesh_file = "tetrahedra.g";
+  parts.conditions = plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1");
+  const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+  EXPECT_EQ(described(deck, folder.world).find("stands in the cells"), std::string::npos);
 }
 
 std::string told_of_tool(const std::string& type, const std::string& keys, const std::string& more = "",

@@ -23,7 +23,7 @@ struct Outcome {
   }
 };
 
-Outcome outcome(const RunFolder& folder, Parts parts) {
+Outcome outcome(const RunFolder& folder, Parts parts, const std::string& solver = "Verlet") {
   const std::string here = folder.operator/("").string();
   parts.output = key("Output Filename", here + "result.e") + key("Output Frequency", "100000") +
                  section("Output Variables", key("Displacement", "true"));
@@ -31,7 +31,7 @@ Outcome outcome(const RunFolder& folder, Parts parts) {
   Outcome outcome;
   testing::internal::CaptureStdout();
   try {
-    run(folder.write("deck.xml", parts.text()), folder.world);
+    run(folder.write("deck.xml", changed(parts.text(), "\"Verlet\"", "\"" + solver + "\"")), folder.world);
   } catch (const Error& error) {
     outcome.error = error.what();
   }
@@ -333,6 +333,24 @@ TEST(Monitor, ToolBetweenPointsThatAreBondedIsToldOf) {
   };
   EXPECT_TRUE(press("2.95e-3", "3.05e-3"));
   EXPECT_FALSE(press("2.2e-3", "3.8e-3"));
+}
+
+// By 6 mm in a load step a thick box goes in between points, too.
+TEST(Monitor, ToolThatALoadStepTakesBetweenPointsIsToldOfAsSuch) {
+  const RunFolder folder(Lattice{.nx = 6});
+  Parts parts;
+  parts.conditions = along("foot", "Prescribed Displacement", "foot", "xyz", "0") +
+                     section("block", key("Type", "Rigid Box") + key("Lower Corner", "-4e-3 -1 3.9e-3") +
+                                          key("Upper Corner", "-2e-3 1 20e-3") + key("Travel X", "6e-3*t"));
+  parts.times = key("Final Time", "1");
+  parts.verlet = key("Number of Load Steps", "1");
+  const Outcome o = outcome(folder, parts, "QuasiStatic");
+  EXPECT_EQ(o.error, "");
+  const auto told = [&](const std::string& words) {
+    return folder.world.max(o.said.find(words) != std::string::npos ? 1.0 : 0.0) > 0;
+  };
+  EXPECT_TRUE(told("the tool 'block' stands between points that are bonded to each other"));
+  EXPECT_TRUE(told("as does one that goes too far in a load step; expected more load steps, a finer mesh or"));
 }
 
 // A box around a bar pushes several of its points to one place, where the bonds of an ordinary solid have no direction:

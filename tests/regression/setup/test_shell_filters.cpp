@@ -99,6 +99,50 @@ TEST(ShellFilters, CutWhatRectanglesCut) {
   EXPECT_NE(cut, families_of(folder, parts.text()));
 }
 
+std::string wall(const RunFolder& folder, const std::string& file, double z) {
+  const Vector x(6e-3, 0, 0), y(0, 6e-3, 0), corner(-1e-3, -1e-3, z);
+  run_on_root(folder.world, [&] { write_shells(folder / file, {{corner, corner + x, corner + x + y, corner + y}}); });
+  return section("wall", key("Type", "Exodus Mesh") + key("File Name", file));
+}
+
+TEST(ShellFilters, ThatCutNothingAreToldOf) {
+  const RunFolder folder;
+  const auto told = [&](const std::string& filters) {
+    return told_at_the_start(deck::read(folder.write("deck.xml", with_filters({}, filters)), folder.world),
+                             folder.world)
+        .warnings;
+  };
+  EXPECT_NE(told(wall(folder, "far.g", 3)).find("Bond Filters: the crack of far.g cuts no bond; are its lengths in m"),
+            std::string::npos);
+  EXPECT_EQ(told(wall(folder, "near.g", 3e-3)).find("Bond Filters"), std::string::npos);
+}
+
+// The bar has 4 x 4 points at z = 2.5 mm. They keep bonds to each other only, which are enough for an ordinary solid.
+TEST(BondFilters, ThroughALayerOfPointsAreToldOf) {
+  const RunFolder folder;
+  const std::string by_shells = wall(folder, "wall.g", 2.5e-3),
+                    by_rectangle = rectangle("wall", "-1e-3", "5e-3", "2.5e-3", "Z", "X", "6e-3", "6e-3");
+  Parts ordinary;
+  ordinary.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+  for (const auto& [filter, name] : {std::pair(by_shells, "the crack of wall.g"),
+                                     std::pair(by_rectangle, "the crack around (0.002, 0.002, 0.0025) m")}) {
+    const deck::Deck deck = deck::read(folder.write("deck.xml", with_filters(ordinary, filter)), folder.world);
+    const std::string told = told_at_the_start(deck, folder.world).warnings;
+    EXPECT_NE(told.find(name + std::string(" runs through 16 points, one at (0.0005, 0.0005, 0.0025) m")),
+              std::string::npos)
+        << told;
+    try {
+      families_of(folder, with_filters({}, filter));
+      ADD_FAILURE() << "correspondence needs neighbors that span space";
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      EXPECT_NE(what.find("16 points have too few neighbors"), std::string::npos) << what;
+      EXPECT_NE(what.find("a crack (Bond Filters) runs through it"), std::string::npos) << what;
+      EXPECT_EQ(what.find("Enlarge the horizon"), std::string::npos) << what;
+    }
+  }
+}
+
 TEST(ShellFilters, OfAWrongFileAreRefused) {
   const RunFolder folder;
   const auto error = [&](const std::string& file) -> std::string {

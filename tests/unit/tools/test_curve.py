@@ -137,6 +137,16 @@ class Extents(InFolder):
         self.assertIsNone(extent.size_of(str(self.folder / "none.g"), "foam"))
         self.assertIsNone(extent.size_of(self.write(np.full((1, 3), 0.5), element=None), "foam"))
 
+    def test_a_lattice_of_points_ends_half_a_step_of_each_axis_beyond_them(self):
+        def grid(*counts):
+            return np.stack(np.meshgrid(*(np.arange(n) + 0.5 for n in counts), indexing="ij"), -1).reshape(-1, 3)
+        edges = np.array([1e-3, 1e-3, 2e-3])
+        irregular = np.random.default_rng(1).random((50, 3)) * 1e-2
+        for places, volume, expected in ((grid(4, 4, 4) * edges, 2e-9, edges), (grid(4, 1, 4) * edges, 2e-9, edges),
+                                         (grid(4, 4, 4)[::3] * edges, 2e-9, edges), (grid(2, 1, 1) * 1e-3, 1e-9, [1e-3] * 3),
+                                         (irregular, 8e-9, 2e-3), (np.zeros((1, 3)), 8e-9, 2e-3)):
+            np.testing.assert_allclose(source.edges_of_cells(places, volume), expected, rtol=1e-9)
+
     def test_cells_that_reach_beyond_the_image_do_not_count_as_full(self):
         # Along x the image ends in the middle of the last cells, which hold a half each; one strut there ends before.
         middles = np.array([[x, y + 0.5, 0.5] for x in (0.5, 1.5, 2.25) for y in range(5)])
@@ -281,6 +291,17 @@ class Runs(InFolder):
         strain = [float(row[1]) for row in self.table("block-curve.csv")[1:]]
         np.testing.assert_allclose(strain, 0.5 * times * (1 - times), atol=1e-7)  # of 20 mm; the rim moves by 1e-9 m
         self.assertEqual(source.material_density(Deck(str(self.folder / "block.xml")), "foam"), 4000)
+
+    def test_where_a_tool_stands_at_the_start_is_no_strain(self):
+        tool = DECK.replace("Prescribed Displacement", "Rigid Plane").replace('"Value"', '"Travel Z"')
+        times = np.linspace(0, 1, 11)
+        self.history({"Time": times, "Reaction_Z(top)": -times, "Reaction_Z(bottom)": times})
+        # A run from the state of another one goes on with its strain.
+        for begin, expected in (("", 0.5 * times), ('<ParameterList name="Start From"/>', 0.1 + 0.5 * times)):
+            deck = tool.replace("-1e-2*t", "-2e-3-1e-2*t").replace('<ParameterList name="History">', f'{begin}<ParameterList name="History">')
+            (self.folder / "block.xml").write_text(deck)
+            self.made("block.xml")
+            np.testing.assert_allclose([float(row[1]) for row in self.table("block-curve.csv")[1:]], expected, atol=1e-9)
 
     def test_the_blow_of_the_first_step_does_not_count(self):
         force = 4e-5 * stress_at(STRAIN)

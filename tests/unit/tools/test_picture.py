@@ -347,6 +347,16 @@ class RigidTools(InFolder):
         np.testing.assert_allclose(tool.offset(x), [0, 0, -3 * x - x**2 - 0.5 * x**3], atol=0.26 * (x / 10)**2 * x)
         self.assertNotEqual(tool.offset(x)[2], -3 * x)
 
+    def test_a_tool_with_a_mass_rests_in_the_equilibria_before_its_flight(self):
+        (self.folder / "h.csv").write_text("# strut\nTime,Reaction_Z(punch)\n0,0\n0.5,0\n1,0\n1.001,0\n1.002,0\n")
+        punch = {"Type": "Rigid Plane", "Point": "0 0 0", "Normal": "0 0 1", "Mass": "2", "Speed Z": "-3", "Force Z": "-4"}
+        deck = {"Boundary Conditions": {"punch": punch}, "History": {"Filename": str(self.folder / "h.csv")},
+                "Solver": {"Final Time": "1", "QuasiStatic": {}}, "Solver 2": {"Final Time": "1.002", "Verlet": {}}}
+        (self.folder / "a.xml").write_text(tree.tostring(section("deck", deck), "unicode"))
+        tool, = rigid.tools_of(str(self.folder / "a.xml"))
+        self.assertEqual(tool.offset(1)[2], 0)
+        self.assertAlmostEqual(tool.offset(1.002)[2], -3 * 2e-3 - 0.5 * 2 * 2e-3**2, 12)
+
     def test_what_cannot_be_drawn_is_told(self):
         (self.folder / "h.csv").write_text("Time\n0\n1\n")
         write_result(self.folder / "body.e", {"body": box(2, 2, 2)}, np.zeros((2, 8, 3)), {"S": np.ones((2, 8))})
