@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "regression/bodies.hpp"
+#include "regression/stretched.hpp"
 #include "run/report.hpp"
 #include "run/simulation.hpp"
 
@@ -397,6 +397,23 @@ TEST(Tools, ThatAreThinnerThanPointsAreApartAreWarnedOf) {
   };
   expect_told(told_of_tool("Rigid Cylinder", roll("0.74e-3")), {"the tool 'tool' is 0.00148 m in diameter, less than"});
   EXPECT_FALSE(is_thin(told_of_tool("Rigid Cylinder", roll("0.76e-3"))));
+}
+
+// Columns 4 mm apart along x, 1 mm along y.
+TEST(Tools, ThatAreThinnerThanColumnsAreApartAreWarnedOf) {
+  const Lattice lattice;
+  const RunFolder folder(lattice);
+  write_stretched(folder, lattice, {4, 1, 1});
+  const auto told = [&](const std::string& lower, const std::string& upper) {
+    Parts parts;
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "8.1e-3"));
+    parts.conditions = section("tool", key("Type", "Rigid Box") + box(lower, upper));
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  expect_told(told("6.3e-3 -1 6e-3", "9.7e-3 1 9e-3"),
+              {"the tool 'tool' is 0.0034 m wide along x, less than 1.5 spacings of block 'bar' (0.004 m each)"});
+  EXPECT_EQ(told("4e-3 -1 6e-3", "11e-3 1 9e-3").find("tools stop points only"), std::string::npos);
+  EXPECT_EQ(told("-1 1.2e-3 6e-3", "1 2.8e-3 9e-3").find("tools stop points only"), std::string::npos);
 }
 
 // The lowest cells end 2 mm above the floor, which the bar reaches at 20 µs with 100 m/s: in the 43rd of 100 parts.

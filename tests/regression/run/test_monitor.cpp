@@ -5,7 +5,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "regression/bodies.hpp"
+#include "regression/stretched.hpp"
 #include "run/monitor.hpp"
 #include "run/simulation.hpp"
 
@@ -314,9 +314,11 @@ TEST(Monitor, BodyThatFoldsThroughItselfIsToldOf) {
   if (folder.world.max(folds.said.find(words) != std::string::npos ? 1.0 : 0.0) == 0) ADD_FAILURE() << folds.said;
 }
 
-// A blade between two columns of points goes between them, and no force tells; one of 1.6 spacings does not.
+// A blade between two columns of points goes between them, and no force tells; one of 1.6 spacings does not. Also
+// where columns are 4 mm apart, and layers 1 mm.
 TEST(Monitor, ToolBetweenPointsThatAreBondedIsToldOf) {
-  const RunFolder folder(Lattice{.nx = 6});
+  const Lattice lattice{.nx = 6};
+  const RunFolder folder(lattice);
   Parts parts;
   const auto press = [&](const std::string& low, const std::string& high) {
     parts.conditions = along("foot", "Prescribed Displacement", "foot", "xyz", "0") +
@@ -333,6 +335,10 @@ TEST(Monitor, ToolBetweenPointsThatAreBondedIsToldOf) {
   };
   EXPECT_TRUE(press("2.95e-3", "3.05e-3"));
   EXPECT_FALSE(press("2.2e-3", "3.8e-3"));
+  write_stretched(folder, lattice, {4, 1, 1});
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "8.1e-3"));
+  EXPECT_TRUE(press("10.3e-3", "13.7e-3"));
+  EXPECT_FALSE(press("8.8e-3", "15.2e-3"));
 }
 
 // A box around a bar pushes several of its points to one place, where the bonds of an ordinary solid have no direction:
