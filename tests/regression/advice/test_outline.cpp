@@ -536,6 +536,36 @@ TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
                        " % too stiff in tension by the material model 'Elastic'"});
 }
 
+// Twice as high as wide, and cubes; 3 points to each side within the horizon, and as many at a surface.
+TEST(OblongCells, OfOrdinaryPointsSurfacesAndCracksAreToldOf) {
+  const std::string dilatation =
+                        "its points are not on a cubic lattice, so the dilatation of the material model "
+                        "'Elastic' counts strain along one direction ",
+                    surfaces =
+                        "the longest edge is 2 times the shortest): contact by surfaces begins up to 0.00074 m "
+                        "early or late, and cracks take more or less than the Fracture Energy (",
+                    cracks = "the longest edge is 2 times the shortest): cracks take";
+  const Lattice lattice{.nx = 8, .ny = 8, .nz = 8};
+  const RunFolder folder(lattice);
+  const auto told = [&](const std::string& contact) {
+    Parts parts;
+    parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+    parts.damage = section("brittle", key("Damage Model", "Bond Energy") + key("Fracture Energy", "1e4"));
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") +
+                                        key("Horizon Factor", "3.015") + key("Damage Model", "brittle"));
+    parts.contact = contact;
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  const std::string itself = section("Models", section("m", key("Contact Model", "Surface"))) +
+                             section("Interactions", section("Self Contact", key("Contact Model", "m")));
+  for (const std::string& words : {dilatation, cracks, surfaces}) {
+    EXPECT_EQ(told(itself).find(words), std::string::npos) << told(itself);
+  }
+  write_stretched(folder, lattice, {1, 1, 2});
+  expect_told(told(""), {dilatation, cracks});
+  expect_told(told(itself), {dilatation, surfaces});
+}
+
 // The output of rank 0. `solver`: the section of the steps.
 std::string told_by_run(const std::string& conditions, const std::string& solver = "Verlet") {
   const RunFolder folder;
