@@ -7,6 +7,7 @@
 #include "contact/interpenetration.hpp"
 #include "contact/own_surface.hpp"
 #include "topology/bounding_box.hpp"
+#include "topology/cell_edges.hpp"
 #include "topology/nearby_ranks.hpp"
 #include "topology/neighbors/cell_grid.hpp"
 
@@ -14,7 +15,7 @@ namespace strut::contact {
 
 namespace {
 
-constexpr double near = 0.5;  // times the smaller spacing of two points
+constexpr double near = 0.5;  // times the smaller of the shortest edges of two cells
 
 // Pairs of blocks without declared contact.
 class Uncovered {
@@ -38,7 +39,7 @@ class Uncovered {
 
 // A point, in the form in which it is sent to other ranks.
 struct Seen {
-  double current[3], reference[3], inward[3], spacing, horizon, block, index;
+  double current[3], reference[3], inward[3], edge, horizon, block, index;
   Vector at() const { return Vector::Map(current); }
 };
 
@@ -50,6 +51,15 @@ Vector inward_at(const Domain& domain, int i) {
   return sum;
 }
 
+// The shortest edge of a point's cell; without cells the nearest neighbor tells.
+double edge_of(const Domain& domain, int i) {
+  double edge = edges_of_cell(domain, i).shortest;
+  if (!domain.cloud.shapes.empty()) return edge;
+  domain.families.for_each(i,
+                           [&](int j) { edge = std::min(edge, (domain.reference(j) - domain.reference(i)).norm()); });
+  return edge;
+}
+
 std::vector<Seen> at_surfaces(const Domain& domain) {
   std::vector<Seen> points;
   for (int i = 0; i < domain.owned; ++i) {
@@ -58,7 +68,7 @@ std::vector<Seen> at_surfaces(const Domain& domain) {
     points.push_back({{y[0], y[1], y[2]},
                       {X[0], X[1], X[2]},
                       {inward[0], inward[1], inward[2]},
-                      domain.cloud.spacings[i],
+                      edge_of(domain, i),
                       domain.horizon(i),
                       static_cast<double>(domain.cloud.blocks[i]),
                       static_cast<double>(i)});
@@ -116,19 +126,19 @@ bool has_passed(const Domain& domain, const Uncovered& uncovered, const Seen& a,
   if (domain.cloud.at == PointsAt::nodes && !(is_behind(b, a) && is_behind(a, b))) return false;
   const double first = (Vector::Map(a.reference) - Vector::Map(b.reference)).norm();
   return domain.blocks[one].body == domain.blocks[other].body ? first > a.horizon + b.horizon
-                                                              : first > std::min(a.spacing, b.spacing);
+                                                              : first > std::min(a.edge, b.edge);
 }
 
-// True if no two points can have come close that started two horizons (in one body) or a spacing (in two) apart.
+// True if no two points can have come close that started two horizons (in one body) or an edge (in two) apart.
 bool hardly_moved(const Domain& domain) {
   Eigen::AlignedBox3d ways;
-  double spacing = std::numeric_limits<double>::max();
+  double edge = std::numeric_limits<double>::max();
   for (int i = 0; i < domain.owned; ++i) {
     ways.extend(Vector(domain.current(i) - domain.reference(i)));
-    spacing = std::min(spacing, domain.cloud.spacings[i]);
+    edge = std::min(edge, edges_of_cell(domain, i).shortest);
   }
   ways = common_box(ways, domain.communicator);
-  return ways.isEmpty() || ways.diagonal().norm() < (1 - near) * domain.communicator.min(spacing);
+  return ways.isEmpty() || ways.diagonal().norm() < (1 - near) * domain.communicator.min(edge);
 }
 
 // Counts the passed points of this rank, which are the first `mine` of `all`.
@@ -141,7 +151,7 @@ Interpenetration passed_points(const Domain& domain, const Uncovered& uncovered,
   for (std::size_t k = 0; k < mine; ++k) {
     const Seen* partner = nullptr;
     grid.visit_near(places[k], [&](int j, const Vector& place) {
-      const double least = near * std::min(all[k].spacing, all[j].spacing);
+      const double least = near * std::min(all[k].edge, all[j].edge);
       const bool is_near = (place - places[k]).squaredNorm() < least * least;
       if (is_near && has_passed(domain, uncovered, all[k], all[j])) partner = &all[j];
     });
@@ -162,10 +172,10 @@ std::optional<Interpenetration> find_undeclared(const Domain& domain, const Cont
   std::vector<Seen> all = at_surfaces(domain);
   fold(domain, all);
   const std::size_t mine = all.size();
-  double spacing = 0;
-  for (const Seen& point : all) spacing = std::max(spacing, point.spacing);
+  double edge = 0;
+  for (const Seen& point : all) edge = std::max(edge, point.edge);
   const Communicator& ranks = domain.communicator;
-  const double reach = near * ranks.max(spacing);
+  const double reach = near * ranks.max(edge);
   const Eigen::AlignedBox3d box = box_around(places_of(all));
   const std::vector<Seen> images = images_of(domain, all, reach);
   all.insert(all.end(), images.begin(), images.end());

@@ -33,6 +33,8 @@ constexpr Check checks[] = {
     held_stretches,
     held_ends,
     thin_members,
+    uneven_dilatation,
+    oblong_cells,
     narrow_surfaces_of_nodes,
     sudden_failure,
     coarse_averages,

@@ -109,6 +109,15 @@ std::string unequal_horizons(const Situation& situation);
 // is weak everywhere.
 std::string narrow_surfaces_of_nodes(const Situation& situation);
 
+// ---- oblong_cells.cpp
+
+// A warning for each block of ordinary points on a lattice that is not cubic, whose dilatation depends on the
+// direction.
+std::string uneven_dilatation(const Situation& situation);
+
+// A warning for each block with cells that are no cubes, if it has contact by surfaces or a fracture energy.
+std::string oblong_cells(const Situation& situation);
+
 // ---- declared_contact.cpp
 
 // A warning for every two blocks without an interaction whose bounding boxes, moved with the initial and prescribed

@@ -6,6 +6,7 @@
 #include "advice/checks.hpp"
 #include "conditions/crossing.hpp"
 #include "conditions/prototype.hpp"
+#include "topology/cell_edges.hpp"
 
 namespace strut {
 
@@ -69,13 +70,13 @@ Extent moved(const Extent& box, const Extent& by) { return {box.min() + by.min()
 
 struct Meeting {
   Extent tool, block, ways;  // initial boxes of both; displacements of the tool relative to the block
-  double spacing;            // m, of the block
+  Vector spacings;           // m, of the block's layers along each axis
 };
 
 // The axes along which the tool approaches the block: those along which they are apart and in relative motion; else
 // those with either.
 std::vector<int> axes_of_approach(const Meeting& meeting) {
-  const double none = as_good_as_none * meeting.spacing;
+  const double none = as_good_as_none * meeting.spacings.maxCoeff();
   std::vector<int> apart, moving, both;
   for (int c = 0; c < 3; ++c) {
     const double gap =
@@ -96,7 +97,7 @@ int thin_axis(const Meeting& meeting) {
     for (int c = 0; c < 3; ++c) {
       const bool reaches_across =
           meeting.tool.min()[c] <= meeting.block.min()[c] && meeting.tool.max()[c] >= meeting.block.max()[c];
-      if (c != approach && !reaches_across && meeting.tool.sizes()[c] < least_width * meeting.spacing) return c;
+      if (c != approach && !reaches_across && meeting.tool.sizes()[c] < least_width * meeting.spacings[c]) return c;
     }
   }
   return -1;
@@ -104,35 +105,37 @@ int thin_axis(const Meeting& meeting) {
 
 // The thin dimension of a tool where it meets a block, m; "" if it is thick.
 struct Thin {
-  double width = 0;
+  double width = 0, spacing = 0;  // spacing: of the layers that it may pass between, m
   std::string what;
 };
 
-Thin thin(const HalfSpace&, const RigidTool&, const Trajectory&, double, double, double) { return {}; }
+Thin thin(const HalfSpace&, const RigidTool&, const Trajectory&, const Vector&, double, double) { return {}; }
 
-Thin thin(const Box& box, const RigidTool& tool, const Trajectory& block, double spacing, double start,
+Thin thin(const Box& box, const RigidTool& tool, const Trajectory& block, const Vector& spacings, double start,
           double duration) {
   const Extent tool_ways = ways_of(tool, start, duration), block_ways = ways_of(block, duration);
   Extent at_start(box.lower, box.upper);
   at_start.translate(tool.offset(start));
   Extent swept = moved(block.places, block_ways);
-  swept = {swept.min() - Vector::Constant(spacing), swept.max() + Vector::Constant(spacing)};
+  swept = {swept.min() - spacings, swept.max() + spacings};
   if (!moved(at_start, tool_ways).intersects(swept)) return {};
   const Extent relative{tool_ways.min() - block_ways.max(), tool_ways.max() - block_ways.min()};
-  const int axis = thin_axis({at_start, block.places, relative, spacing});
+  const int axis = thin_axis({at_start, block.places, relative, spacings});
   if (axis < 0) return {};
-  return {at_start.sizes()[axis], std::string("wide along ") + "xyz"[axis]};
+  return {at_start.sizes()[axis], spacings[axis], std::string("wide along ") + "xyz"[axis]};
 }
 
 // Distance of the tool's axis, at each sample, from the ball around the block.
-Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, double spacing, double start,
+Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, const Vector& spacings, double start,
           double duration) {
+  const Vector across = (1 - roll.axis.array().square()).max(0).sqrt();  // parts of the axes across that of the roll
+  const double spacing = across.cwiseProduct(spacings).maxCoeff();
   if (2 * roll.radius >= least_width * spacing) return {};
   const Extent swept = moved(block.places, ways_of(block, duration));
   const double around = 0.5 * swept.diagonal().norm() + spacing;
   for (int k = 0; k <= looks; ++k) {
     const Vector from = swept.center() - tool.offset(start + duration * k / looks);
-    if (surface(roll, from).gap < around) return {2 * roll.radius, "in diameter"};
+    if (surface(roll, from).gap < around) return {2 * roll.radius, spacing, "in diameter"};
   }
   return {};
 }
@@ -162,6 +165,29 @@ bool meets_block(const RigidTool& tool, int block, const Domain& domain) {
   const bool any =
       std::any_of(tool.points.begin(), tool.points.end(), [&](int i) { return domain.cloud.blocks[i] == block; });
   return domain.communicator.max(any ? 1.0 : 0.0) > 0;
+}
+
+// Collective. The mean edges of each block's cells along x, y and z, m; the spacing where none is known.
+std::vector<Vector> layer_spacings(const Situation& situation) {
+  const Domain& domain = situation.scene.body.domain;
+  std::vector<double> sums(4 * domain.blocks.size());
+  for (int i = 0; i < domain.owned; ++i) {
+    if (!has_known_edges(domain, i)) continue;
+    double* of_block = &sums[4 * domain.cloud.blocks[i]];
+    for (int c = 0; c < 3; ++c) of_block[c] += edge_of_cell(domain, i, Vector::Unit(c));
+    ++of_block[3];
+  }
+  domain.communicator.sum(sums);
+  std::vector<Vector> spacings;
+  for (std::size_t b = 0; b < domain.blocks.size(); ++b) {
+    const double count = sums[4 * b + 3];
+    if (count > 0) {
+      spacings.emplace_back(Vector::Map(&sums[4 * b]) / count);
+    } else {
+      spacings.emplace_back(Vector::Constant(situation.spacings[b]));
+    }
+  }
+  return spacings;
 }
 
 }  // namespace
@@ -244,7 +270,7 @@ std::string meeting_tools(const Situation& situation) {
 
 std::string thin_tools(const Situation& situation) {
   const Scene& scene = situation.scene;
-  const auto& spacings = situation.spacings;
+  const std::vector<Vector> spacings = layer_spacings(situation);
   const auto& trajectories = situation.trajectories;
   const double start = situation.start, duration = situation.duration;
   const Domain& domain = scene.body.domain;
@@ -254,14 +280,14 @@ std::string thin_tools(const Situation& situation) {
   for (std::size_t n = 0; n < tools.size(); ++n) {
     for (std::size_t b = 0; b < trajectories.size(); ++b) {
       if (trajectories[b].places.isEmpty() || !meets_block(tools[n], static_cast<int>(b), domain)) continue;
-      const auto [width, what] = std::visit(
+      const auto [width, spacing, what] = std::visit(
           [&](const auto& shape) { return thin(shape, tools[n], trajectories[b], spacings[b], start, duration); },
           tools[n].shape);
       if (what.empty()) continue;
       text << "WARNING: the tool '" << scene.tools[n].name << "' is " << width << " m " << what
-           << ", less than 1.5 spacings of block '" << domain.cloud.block_names[b] << "' (" << spacings[b]
+           << ", less than 1.5 spacings of block '" << domain.cloud.block_names[b] << "' (" << spacing
            << " m each), which it can reach: tools stop points only, and this one passes between them; expected "
-           << least_width * spacings[b] << " m or more, or a finer mesh\n";
+           << least_width * spacing << " m or more, or a finer mesh\n";
     }
   }
   return text.str();

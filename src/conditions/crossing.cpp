@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "topology/cell_edges.hpp"
+
 namespace strut {
 
 namespace {
 
-constexpr double nearest_neighbors = 1.5;  // spacings: largest initial distance of the two points
+constexpr double nearest_neighbors = 1.5;  // the cell's edges: largest initial distance of the two points
 constexpr double opposite = -0.5;          // n·n of normals more than 120 degrees apart
 constexpr double least_depth = 1e-3;       // of a spacing: least depth in the tool
 
@@ -36,10 +38,11 @@ Crossing crossing_of(const S& shape, const RigidTool& tool, const Vector& offset
                      const std::vector<Vector>& places) {
   Crossing found;
   for (const int i : tool.points) {
-    const double h = domain.cloud.spacings[i];
-    if (surface(shape, places[i] - offset).gap > 2 * nearest_neighbors * h) continue;
+    const double h = domain.cloud.spacings[i], longest = edges_of_cell(domain, i).longest;
+    if (surface(shape, places[i] - offset).gap > 2 * nearest_neighbors * longest) continue;
     domain.families.for_each(i, [&](int j) {
-      const bool is_near = (domain.reference(j) - domain.reference(i)).norm() <= nearest_neighbors * h;
+      const Vector xi = domain.reference(j) - domain.reference(i);
+      const bool is_near = xi.norm() <= nearest_neighbors * std::max(h, edge_of_cell(domain, i, xi.normalized()));
       if (is_near && is_between(shape, places[i] - offset, places[j] - offset, least_depth * h)) found = {i, j};
     });
     if (found.point >= 0) break;

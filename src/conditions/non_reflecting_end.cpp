@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "conditions/velocity_update.hpp"
+#include "topology/cell_edges.hpp"
 
 namespace strut {
 
@@ -31,10 +32,10 @@ NonReflectingEnd NonReflectingEnd::on(std::vector<int> points, int at, const Bod
   for (const int i : points) {
     const BlockMaterial& material = body.blocks[body.domain.cloud.blocks[i]].material;
     const auto moduli = materials::moduli_of(material.law);
-    const double s = body.domain.cloud.spacings[i];
+    const double h = edge_of_cell(body.domain, i, normal);
     end.drags.push_back({.point = i,
-                         .along = 2 / s * std::sqrt(moduli.longitudinal() / material.density),
-                         .across = 2 / s * std::sqrt(moduli.shear / material.density)});
+                         .along = 2 / h * std::sqrt(moduli.longitudinal() / material.density),
+                         .across = 2 / h * std::sqrt(moduli.shear / material.density)});
   }
   return end;
 }

@@ -14,7 +14,7 @@ namespace strut {
 struct NonReflectingEnd {
   struct Drag {
     int point;
-    double along, across;  // traction over speed and mass of half a layer, 1/s: 2 c_p/s and 2 c_s/s with the spacing s
+    double along, across;  // traction over speed and mass of half a layer, 1/s: 2 c_p/h and 2 c_s/h, h its thickness
   };
   Vector normal = Vector::UnitX();  // of unit length
   std::vector<Drag> drags = {};

@@ -1,7 +1,6 @@
 #include "output/means.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -20,9 +19,9 @@ Layers::Layers(const deck::Profile& profile, const Body& body, const std::string
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (int i = 0; i < body.owned(); ++i) {
     if (!group_.counts(body.domain.cloud, i)) continue;
-    const double place = direction_.dot(body.domain.reference(i)), half = 0.5 * std::cbrt(body.domain.volume(i));
-    low = std::min(low, place - half);
-    high = std::max(high, place + half);
+    const double place = direction_.dot(body.domain.reference(i)), volume = body.domain.volume(i);
+    low = std::min(low, place - reach_of_cell(body.domain.cloud, volume, i, -direction_));
+    high = std::max(high, place + reach_of_cell(body.domain.cloud, volume, i, direction_));
   }
   low_ = ranks.min(low);
   thickness_ = (ranks.max(high) - low_) / count_;
@@ -41,8 +40,9 @@ Layers::Layers(const deck::Profile& profile, const Body& body, const std::string
 int Layers::of(const Body& body, int i) const {
   if (!group_.counts(body.domain.cloud, i)) return -1;
   if (count_ == 1) return 0;
-  const double place = (direction_.dot(body.domain.reference(i)) - low_) / thickness_;
-  return std::clamp(static_cast<int>(place), 0, count_ - 1);
+  constexpr double round_off = 1e-9;  // so that points between two layers, as nodes may be, are all in the upper one
+  const double height = direction_.dot(body.domain.reference(i)) - low_;
+  return thickness_ > 0 ? std::clamp(static_cast<int>(height / thickness_ + round_off), 0, count_ - 1) : 0;
 }
 
 std::vector<std::string> Reduction::columns() const {

@@ -15,7 +15,7 @@
 namespace strut {
 
 // Layers of the points of a set across a direction, of equal thickness, between the outer faces of the outermost points
-// (half a spacing, the cube root of the volume, beyond them) in the reference state.
+// (where their cells end; nodes lie on them) in the reference state.
 class Layers {
  public:
   Layers() = default;  // a single layer of all points

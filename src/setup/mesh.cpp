@@ -25,22 +25,30 @@ namespace {
 
 const std::string mesh_key = "Discretization > Input Mesh File";  // or, of a mesh in memory, what stands for it
 
-// True if tools or surface contact need the faces of cells; points at nodes lie on them.
+// True if surface contact or layers of a profile need the faces of cells; points at nodes lie on them.
 bool meets_faces(const deck::Deck& deck) {
-  const auto is_tool = [](const deck::Condition& one) { return std::holds_alternative<RigidTool>(one.kind); };
   const auto is_of_surfaces = [](const deck::ContactModel& one) {
     return std::holds_alternative<contact::SurfaceLaw>(one.model.law);
   };
   return deck.discretization.points == deck::Points::elements &&
-         (std::any_of(deck.conditions.begin(), deck.conditions.end(), is_tool) ||
+         (!deck.history.profiles.empty() ||
           std::any_of(deck.contact_models.begin(), deck.contact_models.end(), is_of_surfaces));
+}
+
+// True if tools, non-reflecting ends or cracks need the edges of cells, which are no cubes everywhere.
+bool needs_edges(const deck::Deck& deck) {
+  const auto is_for_edges = [](const deck::Condition& one) {
+    return std::holds_alternative<RigidTool>(one.kind) || std::holds_alternative<NonReflectingEnd>(one.kind);
+  };
+  return !deck.damage_models.empty() || std::any_of(deck.conditions.begin(), deck.conditions.end(), is_for_edges);
 }
 
 // True if anything needs the shapes of cells.
 bool needs_cells(const deck::Deck& deck) {
   return std::any_of(deck.materials.begin(), deck.materials.end(), is_quadratic) || meets_faces(deck) ||
-         std::any_of(deck.blocks.begin(), deck.blocks.end(),
-                     [](const deck::Block& block) { return !block.across_voids.value_or(true); });
+         needs_edges(deck) || std::any_of(deck.blocks.begin(), deck.blocks.end(), [](const deck::Block& block) {
+           return !block.across_voids.value_or(true);
+         });
 }
 
 // Marks the points with these numbers; returns how many were found.

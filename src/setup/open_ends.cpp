@@ -5,16 +5,17 @@
 #include <type_traits>
 
 #include "setup/found_points.hpp"
+#include "topology/cell_edges.hpp"
 #include "topology/planes_through.hpp"
 
 namespace strut {
 
 namespace {
 
-// Neighbors farther than this along the normal are in another layer, in spacings.
+// Neighbors farther than this along the normal are in another layer, in thicknesses of a layer.
 constexpr double next_layer = 0.5;
 
-// The extent of a point's family along a direction, in spacings.
+// The extent of a point's family along a direction, in thicknesses of a layer.
 struct Extent {
   double ahead = 0, behind = 0, sum = 0;
   bool is_inside() const { return ahead > next_layer && behind > next_layer; }
@@ -22,8 +23,9 @@ struct Extent {
 
 Extent extent_along(const Vector& direction, const Domain& domain, int i) {
   Extent extent;
+  const double thickness = edge_of_cell(domain, i, direction);
   domain.families.for_each(i, [&](int j) {
-    const double along = direction.dot(domain.reference(j) - domain.reference(i)) / domain.cloud.spacings[i];
+    const double along = direction.dot(domain.reference(j) - domain.reference(i)) / thickness;
     extent.ahead = std::max(extent.ahead, along), extent.behind = std::max(extent.behind, -along);
     extent.sum += along;
   });

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "regression/bodies.hpp"
+#include "regression/stretched.hpp"
 #include "run/report.hpp"
 #include "run/simulation.hpp"
 
@@ -425,6 +425,23 @@ TEST(Tools, ThatAreThinnerThanPointsAreApartAreWarnedOf) {
   EXPECT_FALSE(is_thin(told_of_tool("Rigid Cylinder", roll("0.76e-3"))));
 }
 
+// Columns 4 mm apart along x, 1 mm along y.
+TEST(Tools, ThatAreThinnerThanColumnsAreApartAreWarnedOf) {
+  const Lattice lattice;
+  const RunFolder folder(lattice);
+  write_stretched(folder, lattice, {4, 1, 1});
+  const auto told = [&](const std::string& lower, const std::string& upper) {
+    Parts parts;
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "8.1e-3"));
+    parts.conditions = section("tool", key("Type", "Rigid Box") + box(lower, upper));
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  expect_told(told("6.3e-3 -1 6e-3", "9.7e-3 1 9e-3"),
+              {"the tool 'tool' is 0.0034 m wide along x, less than 1.5 spacings of block 'bar' (0.004 m each)"});
+  EXPECT_EQ(told("4e-3 -1 6e-3", "11e-3 1 9e-3").find("tools stop points only"), std::string::npos);
+  EXPECT_EQ(told("-1 1.2e-3 6e-3", "1 2.8e-3 9e-3").find("tools stop points only"), std::string::npos);
+}
+
 // The lowest cells end 2 mm above the floor, which the bar reaches at 20 µs with 100 m/s: in the 43rd of 100 parts.
 TEST(Tools, ThatAreApartFromAllPointsAreToldOf) {
   const std::string floor = key("Point", "0 0 -2e-3") + key("Normal", "0 0 1");
@@ -543,6 +560,36 @@ TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
   };
   expect_told(told(), {"block 'bar': members are ", " spacings thick (4 volume/surface); bars so thick were found ",
                        " % too stiff in tension by the material model 'Elastic'"});
+}
+
+// Twice as high as wide, and cubes; 3 points to each side within the horizon, and as many at a surface.
+TEST(OblongCells, OfOrdinaryPointsSurfacesAndCracksAreToldOf) {
+  const std::string dilatation =
+                        "its points are not on a cubic lattice, so the dilatation of the material model "
+                        "'Elastic' counts strain along one direction ",
+                    surfaces =
+                        "the longest edge is 2 times the shortest): contact by surfaces begins up to 0.00074 m "
+                        "early or late, and cracks take more or less than the Fracture Energy (",
+                    cracks = "the longest edge is 2 times the shortest): cracks take";
+  const Lattice lattice{.nx = 8, .ny = 8, .nz = 8};
+  const RunFolder folder(lattice);
+  const auto told = [&](const std::string& contact) {
+    Parts parts;
+    parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+    parts.damage = section("brittle", key("Damage Model", "Bond Energy") + key("Fracture Energy", "1e4"));
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") +
+                                        key("Horizon Factor", "3.015") + key("Damage Model", "brittle"));
+    parts.contact = contact;
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  const std::string itself = section("Models", section("m", key("Contact Model", "Surface"))) +
+                             section("Interactions", section("Self Contact", key("Contact Model", "m")));
+  for (const std::string& words : {dilatation, cracks, surfaces}) {
+    EXPECT_EQ(told(itself).find(words), std::string::npos) << told(itself);
+  }
+  write_stretched(folder, lattice, {1, 1, 2});
+  expect_told(told(""), {dilatation, cracks});
+  expect_told(told(itself), {dilatation, surfaces});
 }
 
 // The output of rank 0. `solver`: the section of the steps.

@@ -2,7 +2,7 @@
 // explain.
 #include <gtest/gtest.h>
 
-#include "regression/bodies.hpp"
+#include "regression/stretched.hpp"
 #include "run/simulation.hpp"
 
 namespace strut::regression {
@@ -52,6 +52,24 @@ TEST(Means, AreThoseOfAMotionThatIsGiven) {
   }
   EXPECT_NEAR(first("Mean_Coordinate_X(across 1)"), 3 * h, 1e-16);
   EXPECT_NEAR(first("Mean_Coordinate_X(across 2)"), 1 * h, 1e-16);
+}
+
+// Cells of 4 x 4 x 1 mm: six layers are those of the mesh.
+TEST(Means, OfLayersOfFlatCells) {
+  const Lattice lattice;
+  const RunFolder folder(lattice);
+  write_stretched(folder, lattice, {4, 4, 1});
+  Parts parts;
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "8.1e-3"));
+  parts.times = key("Final Time", "1e-8");
+  for (const int count : {3, 6}) {
+    const Table table = history_of(folder, parts, {"Mean_Coordinate_Z(slices)"},
+                                   section("slices", key("Layers", std::to_string(count))));
+    for (int layer = 1; layer <= count; ++layer) {
+      const std::string column = "Mean_Coordinate_Z(slices " + std::to_string(layer) + ")";
+      EXPECT_NEAR(table.at(column).front(), (layer - 0.5) * 6 * h / count, 1e-16) << layer;
+    }
+  }
 }
 
 // Hot metal on an elastic plate, which has no temperature: its zeros are no temperatures.

@@ -5,7 +5,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "regression/bodies.hpp"
+#include "regression/stretched.hpp"
 #include "run/monitor.hpp"
 #include "run/simulation.hpp"
 
@@ -314,9 +314,11 @@ TEST(Monitor, BodyThatFoldsThroughItselfIsToldOf) {
   if (folder.world.max(folds.said.find(words) != std::string::npos ? 1.0 : 0.0) == 0) ADD_FAILURE() << folds.said;
 }
 
-// A blade between two columns of points goes between them, and no force tells; one of 1.6 spacings does not.
+// A blade between two columns of points goes between them, and no force tells; one of 1.6 spacings does not. Also
+// where columns are 4 mm apart, and layers 1 mm.
 TEST(Monitor, ToolBetweenPointsThatAreBondedIsToldOf) {
-  const RunFolder folder(Lattice{.nx = 6});
+  const Lattice lattice{.nx = 6};
+  const RunFolder folder(lattice);
   Parts parts;
   const auto press = [&](const std::string& low, const std::string& high) {
     parts.conditions = along("foot", "Prescribed Displacement", "foot", "xyz", "0") +
@@ -333,6 +335,10 @@ TEST(Monitor, ToolBetweenPointsThatAreBondedIsToldOf) {
   };
   EXPECT_TRUE(press("2.95e-3", "3.05e-3"));
   EXPECT_FALSE(press("2.2e-3", "3.8e-3"));
+  write_stretched(folder, lattice, {4, 1, 1});
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "8.1e-3"));
+  EXPECT_TRUE(press("10.3e-3", "13.7e-3"));
+  EXPECT_FALSE(press("8.8e-3", "15.2e-3"));
 }
 
 // By 6 mm in a load step a thick box goes in between points, too.
@@ -409,13 +415,15 @@ TEST(Monitor, BodiesThatPressEachOtherDoNotPass) {
 }
 
 // Two blocks of 4 x 4 x 3 cells whose nodes are the points; the upper one, a gap above, is thrown along an axis.
+// `width`: of the cells, which are 1 mm high, mm.
 Parts thrown_nodes(const RunFolder& folder, double aside, double gap, const std::string& axis,
-                   const std::string& contact) {
+                   const std::string& contact, double width = 1) {
   io::Mesh mesh = Lattice{4, 4, 3}.mesh();
   io::Mesh::Block above{"block_2", "HEX8", mesh.blocks[0].nodes, {}};
   const std::vector<Vector> below = mesh.nodes;
   for (const Vector& X : below) mesh.nodes.push_back(X + Vector(aside, aside, 3e-3 + gap));
   for (int& node : above.nodes) node += static_cast<int>(below.size());
+  for (Vector& node : mesh.nodes) node.head<2>() *= width;
   mesh.blocks[0].name = "block_1";
   mesh.blocks.push_back(above);
   run_on_root(folder.world, [&] { io::write_mesh(folder / "two.g", mesh); });
@@ -474,6 +482,16 @@ TEST(Monitor, FacesOfNodesThatOnlyComeNearDoNotPass) {
   EXPECT_TRUE(passes_through(folder, thrown_nodes(folder, 0, 1e-3, "z", ""), "60e-6"));
   for (const double gap : {0.1e-3, 0.3e-3})
     EXPECT_FALSE(passes_through(folder, thrown_nodes(folder, 0, gap, "x", ""), "220e-6")) << gap;
+}
+
+// Flat cells, 4 mm wide: 0.2 mm apart, and inside of each other.
+TEST(Monitor, FacesOfFlatCellsThatOnlyComeNearDoNotPass) {
+  const RunFolder folder;
+  Parts parts = thrown_nodes(folder, 0, 2e-3, "z", "", 4);
+  parts.points = "Elements";
+  for (int block = 0; block < 2; ++block) parts.blocks = changed(parts.blocks, "2.01e-3", "8.1e-3");
+  EXPECT_FALSE(passes_through(folder, parts, "90e-6"));
+  EXPECT_TRUE(passes_through(folder, parts, "160e-6"));
 }
 
 // A layer that is drawn through the others.

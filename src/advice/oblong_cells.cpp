@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "advice/checks.hpp"
+#include "topology/cell_edges.hpp"
+
+namespace strut {
+
+namespace {
+
+// ---- Dilatation of ordinary solids ---------------------------------------------------------------------------------
+
+// True if less than a layer is missing on both sides along a direction. The next layer is that of the nearest neighbor
+// in a cone around it.
+bool reaches_horizon(const Domain& domain, int i, const Vector& direction) {
+  constexpr double narrow = 0.8;  // the cosine
+  double ahead = 0, behind = 0, layer = std::numeric_limits<double>::infinity();
+  domain.families.for_each(i, [&](int j) {
+    const Vector xi = domain.reference(j) - domain.reference(i);
+    const double along = direction.dot(xi);
+    ahead = std::max(ahead, along), behind = std::max(behind, -along);
+    if (std::abs(along) > narrow * xi.norm()) layer = std::min(layer, std::abs(along));
+  });
+  return std::min(ahead, behind) > domain.horizon(i) - (1 - 1e-6) * layer;
+}
+
+// 3 K/tr K of an ordinary point, K = Σ ω V ξ⊗ξ: by how much its dilatation (3/m) Σ ω V |ξ| e counts strain along each
+// direction. Zero where a surface is near.
+Tensor counts_of_strain(const Body& body, int i) {
+  const Tensor inverse = to_tensor(body.shape_inverse[i]);
+  if (!(inverse.trace() > 0)) return Tensor::Zero();
+  const Tensor K = inverse.inverse();
+  const Tensor axes = Eigen::SelfAdjointEigenSolver<Tensor>(K).eigenvectors();
+  for (int c = 0; c < 3; ++c) {
+    for (const Vector& direction : {Vector(Vector::Unit(c)), Vector(axes.col(c))}) {
+      if (!reaches_horizon(body.domain, i, direction)) return Tensor::Zero();
+    }
+  }
+  return 3 / K.trace() * K;
+}
+
+}  // namespace
+
+std::string uneven_dilatation(const Situation& situation) {
+  constexpr double worth_saying = 0.02;
+  constexpr std::size_t enough = 2000;  // points of a block and rank
+  const Body& body = situation.scene.body;
+  std::vector<Tensor> sums(body.blocks.size(), Tensor::Zero());
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (!body.blocks[b].is_ordinary()) continue;
+    const auto& points = body.blocks[b].points;
+    for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / enough) {
+      sums[b] += counts_of_strain(body, points[k]);
+    }
+  }
+  std::ostringstream text;
+  text.precision(3);
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    body.domain.communicator.sum(std::span<double>(sums[b].data(), 9));
+    if (!(sums[b].trace() > 0)) continue;
+    const Vector counts = Eigen::SelfAdjointEigenSolver<Tensor>(3 / sums[b].trace() * sums[b]).eigenvalues();
+    if (std::max(counts[2] - 1, 1 - counts[0]) < worth_saying) continue;
+    text << "WARNING: block '" << body.blocks[b].name << "': its points are not on a cubic lattice, so the dilatation "
+         << "of the material model 'Elastic' counts strain along one direction " << counts[0]
+         << " times and along another " << counts[2]
+         << " times, and stress and wave speeds are off by as much or more; expected cubes, or 'Elastic "
+            "Correspondence'\n";
+  }
+  return text.str();
+}
+
+namespace {
+
+// ---- Surfaces and cracks -------------------------------------------------------------------------------------------
+
+// Means over the cells of a block with known edges, m; 0 without any.
+struct MeanEdges {
+  double shortest = 0, spacing = 0, longest = 0;
+};
+
+std::vector<MeanEdges> mean_edges(const Domain& domain) {
+  std::vector<double> sums(4 * domain.blocks.size());
+  for (int i = 0; i < domain.owned; ++i) {
+    if (!has_known_edges(domain, i)) continue;
+    const CellEdges edges = edges_of_cell(domain, i);
+    double* of_block = &sums[4 * domain.cloud.blocks[i]];
+    of_block[0] += edges.shortest, of_block[1] += domain.cloud.spacings[i], of_block[2] += edges.longest, ++of_block[3];
+  }
+  domain.communicator.sum(sums);
+  std::vector<MeanEdges> means;
+  for (std::size_t b = 0; b < sums.size(); b += 4) {
+    const double count = std::max(1.0, sums[b + 3]);
+    means.push_back({sums[b] / count, sums[b + 1] / count, sums[b + 2] / count});
+  }
+  return means;
+}
+
+std::set<int> blocks_with_surfaces(const Situation& situation) {
+  std::set<int> blocks;
+  for (const auto& [first, second, model] : situation.interactions) {
+    if (std::holds_alternative<contact::SurfaceLaw>(model.law)) blocks.insert({first, second});
+  }
+  return blocks;
+}
+
+bool has_fracture_energy(const MaterialBlock& block) {
+  const auto& damage = block.material.damage;
+  return damage && (damage->fracture_energy > 0 || (damage->ductility && damage->ductility->fracture_energy > 0));
+}
+
+}  // namespace
+
+std::string oblong_cells(const Situation& situation) {
+  constexpr double worth_saying = 1.3;
+  const Body& body = situation.scene.body;
+  const std::vector<MeanEdges> all = mean_edges(body.domain);
+  const std::set<int> touching = blocks_with_surfaces(situation);
+  std::ostringstream text;
+  text.precision(2);
+  for (int b = 0; b < std::ssize(body.blocks); ++b) {
+    const auto& [shortest, spacing, longest] = all[b];
+    const bool touches = touching.contains(b), breaks = has_fracture_energy(body.blocks[b]);
+    if (!(touches || breaks) || !(longest > worth_saying * shortest)) continue;
+    text << "WARNING: block '" << body.blocks[b].name << "': its cells are no cubes (the longest edge is "
+         << longest / shortest << " times the shortest)";
+    if (touches) {
+      text << ": contact by surfaces begins up to " << std::max(spacing - shortest, longest - spacing)
+           << " m early or late";
+    }
+    if (breaks)
+      text << (touches ? ", and" : ":") << " cracks take more or less than the Fracture Energy (0.4 to 1.4 of "
+           << "it was found at ratios of 2 and 3)";
+    text << "; expected cubes\n";
+  }
+  return text.str();
+}
+
+}  // namespace strut

@@ -1,0 +1,22 @@
+// The edges of the cells of points, which need not be cubes.
+#pragma once
+
+#include "topology/domain.hpp"
+
+namespace strut {
+
+// True if the cell of an owned point has known edges: it is a node's, or a hexahedron that is all material.
+bool has_known_edges(const Domain& domain, int i);
+
+// The edge of the cell of an owned point along a direction of unit length, m: of a box along its axes exact. A node at
+// a surface has the edge of a whole cell, as it were inside. The spacing where edges are not known.
+double edge_of_cell(const Domain& domain, int i, const Vector& direction);
+
+struct CellEdges {
+  double shortest, longest;  // m
+};
+
+// Along the principal axes of the cell's moments.
+CellEdges edges_of_cell(const Domain& domain, int i);
+
+}  // namespace strut
