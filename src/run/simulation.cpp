@@ -90,6 +90,7 @@ struct Run::Parts {
   std::optional<CentralDifference> steps;  // for explicit steps, else
   std::optional<QuasiStatic> equilibria;
   std::optional<Monitor> monitor;
+  std::optional<UserLibraries> libraries;
   std::optional<Checkpoint> checkpoint;
   std::optional<RunServices> services;
   std::optional<ExplicitRunControl> control;
@@ -136,6 +137,7 @@ struct Run::Parts {
 void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Start start) {
   const bool has_expanded = look_at_checkpoint(deck, start, communicator, problems);
   const bool continued = start == Start::continued && checkpoint_exists(deck, communicator);
+  libraries.emplace(deck, communicator);
   std::optional<StartState> state;
   if (!continued) state = start_state_of(deck, communicator, problems);
   scene = strut::set_up(deck, checked_mesh(deck, std::move(problems), communicator, in_memory.mesh), communicator);
@@ -186,6 +188,9 @@ void Run::Parts::open(Start start) {
     monitor->serialize_tools(archive, scene->tools.size());
     balance.serialize(archive, scene->body);
     writers->serialize(archive, number_of_steps(), time());
+    libraries->serialize(archive);
+    if (const std::string changed = libraries->changed(); !changed.empty())
+      throw Error(changed + "; a run can go on with the same one only");
   });
   if (start == Start::continued && checkpoint_exists(deck, communicator)) {
     checkpoint->load();
