@@ -13,6 +13,7 @@
 #include "run/repartition.hpp"
 #include "run/run_control.hpp"
 #include "run/start_from.hpp"
+#include "setup/families.hpp"
 #include "setup/setup.hpp"
 
 namespace strut {
@@ -140,7 +141,9 @@ void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Star
   libraries.emplace(deck, communicator);
   std::optional<StartState> state;
   if (!continued) state = start_state_of(deck, communicator, problems);
-  scene = strut::set_up(deck, checked_mesh(deck, std::move(problems), communicator, in_memory.mesh), communicator);
+  PointCloud mesh = checked_mesh(deck, std::move(problems), communicator, in_memory.mesh);
+  read_cracks(deck, communicator);
+  scene = strut::set_up(deck, std::move(mesh), communicator);
   const std::string started = state ? state->restore(deck, *scene) : "";
   keep_expansion(has_expanded, scene->body);
   // Advice is of the start, where these bodies are no longer, and were not as the mesh has them.

@@ -60,7 +60,21 @@ void refuse_degenerate(std::int64_t count, std::string text, const Communicator&
   raise_together(communicator, text);
 }
 
+std::vector<Crack> cracks_of(const deck::Discretization& discretization, const Communicator& communicator) {
+  std::vector<Crack> cracks = discretization.cracks;
+  for (const auto& file : discretization.shells) {
+    cracks.emplace_back(TriangulatedCrack{io::read_shells(file, communicator)});
+  }
+  return cracks;
+}
+
 }  // namespace
+
+void read_cracks(deck::Deck& deck, const Communicator& communicator) {
+  const Timed timed(phase("Families"));
+  deck.discretization.cracks = cracks_of(deck.discretization, communicator);
+  deck.discretization.shells.clear();
+}
 
 // Builds the families of the partitioned cloud and drops degenerate points. Dropping one may make others degenerate.
 Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const std::vector<Mirror>& mirrors,
@@ -69,10 +83,7 @@ Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud
   const Timed timed(phase("Families"));
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   const deck::DegeneratePoints rule = deck.discretization.degenerate;
-  std::vector<Crack> cracks = deck.discretization.cracks;
-  for (const auto& file : deck.discretization.shells) {
-    cracks.emplace_back(TriangulatedCrack{io::read_shells(file, communicator)});
-  }
+  const std::vector<Crack> cracks = cracks_of(deck.discretization, communicator);
   PiecesOfPoints before;
   for (;;) {
     Domain domain = make_domain(std::move(cloud), bonds, communicator, cracks, mirrors, periods);

@@ -14,4 +14,8 @@ Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud
                                         const std::vector<Period>& periods, const Communicator& communicator,
                                         Dropped& dropped);
 
+// Collective. Reads the surfaces of Bond Filters into the deck's cracks, for all partitions of a run: their files may
+// be gone by the next.
+void read_cracks(deck::Deck& deck, const Communicator& communicator);
+
 }  // namespace strut

@@ -4,6 +4,7 @@
 #include "io/exodus/exodus_file.hpp"
 #include "regression/bodies.hpp"
 #include "run/simulation.hpp"
+#include "setup/families.hpp"
 
 namespace strut::regression {
 namespace {
@@ -139,6 +140,24 @@ TEST(ShellFilters, ThatHaveMovedAreNotThoseOfTheCheckpoint) {
   write(3e-3);
   EXPECT_EQ(error("2e-6", Start::anew, from), "no error");
   EXPECT_EQ(error("2e-6", Start::continued), "no error");
+}
+
+// A run that spreads its points over the ranks anew needs no file for it.
+TEST(ShellFilters, AreReadOnce) {
+  const RunFolder folder;
+  run_on_root(folder.world, [&] { write_shells(folder / "shells.g", two_walls()); });
+  deck::Deck deck = deck::read(
+      folder.write("deck.xml",
+                   with_filters({}, section("walls", key("Type", "Exodus Mesh") + key("File Name", "shells.g")))),
+      folder.world);
+  read_cracks(deck, folder.world);
+  const Scene scene = set_up(deck, folder.world);
+  run_on_root(folder.world, [&] { std::filesystem::remove(folder / "shells.g"); });
+  const auto bonds = [&](const Scene& one) {
+    return folder.world.sum(static_cast<std::int64_t>(one.body.domain.families.bonds()));
+  };
+  const Scene again = set_up_again(deck, migration_state_of(scene, whole_cloud(scene.body.domain)), folder.world);
+  EXPECT_EQ(bonds(again), bonds(scene));
 }
 
 TEST(ShellFilters, OfAWrongFileAreRefused) {
