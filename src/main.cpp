@@ -1,5 +1,8 @@
 // strut: correspondence peridynamics of foams and bars under impact.
 // Its options are described in `help`.
+#include <poll.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 #include <iostream>
@@ -48,9 +51,23 @@ tools/run passes signals on and returns the same status, and so does mpirun for 
 of Open MPI returns 1, and kills ranks that take longer than a second.
 )";
 
+// True if standard output is a pipe that nobody reads any more.
+bool reader_has_gone() {
+  pollfd out{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&out, 1, 0) > 0 && (out.revents & POLLERR) != 0;
+}
+
+// What a command prints is all that there is of it; a reader that has gone, as `head` does, has what it wants.
+int printed(const strut::Communicator& world) {
+  if (world.rank() == 0 && !(std::cout << std::flush) && !reader_has_gone()) {
+    throw strut::Error("standard output cannot be written, or not all of it (a full disk?)");
+  }
+  return 0;
+}
+
 int say(const strut::Communicator& world, const std::string& text) {
   if (world.rank() == 0) std::cout << text;
-  return 0;
+  return printed(world);
 }
 
 int run(const std::string& deck, const strut::Communicator& world, strut::Start start) {
@@ -111,7 +128,7 @@ int act(const std::vector<std::string>& words, const strut::Communicator& world)
   if (words.size() == 2 && !words[1].starts_with("-")) {
     if (first == "--explain") return say(world, strut::deck::explanation(words[1]));
     if (first == "--continue") return run(words[1], world, strut::Start::continued);
-    if (first == "--check") return strut::check(words[1], world), 0;
+    if (first == "--check") return strut::check(words[1], world), printed(world);
   }
   if (words.size() > 2 && first == "--log" && !words[1].starts_with("-") && words[1] != words.back()) {
     const strut::Log log(words[1], world);

@@ -48,8 +48,7 @@ bool may_part(const Ball& crack, const Domain& domain, int i) {
 }
 
 // What a deck says of its crack k: the place or the file.
-std::string name_of(std::size_t k, const Ball& ball, const deck::Discretization& discretization) {
-  const std::size_t drawn = discretization.cracks.size();
+std::string name_of(std::size_t k, std::size_t drawn, const Ball& ball, const deck::Discretization& discretization) {
   return k < drawn ? "the crack around " + place_text(ball.center)
                    : "the crack of " + discretization.shells[k - drawn].filename().string();
 }
@@ -57,10 +56,11 @@ std::string name_of(std::size_t k, const Ball& ball, const deck::Discretization&
 std::string misplaced_cracks(const deck::Deck& deck, const Body& body) {
   const Domain& domain = body.domain;
   const std::vector<Crack> cracks = cracks_of(deck, domain.communicator);
+  const std::size_t drawn = cracks.size() - deck.discretization.shells.size();
   std::ostringstream text;
   for (std::size_t k = 0; k < cracks.size(); ++k) {
     const Ball ball = std::visit([](const auto& one) { return around(one); }, cracks[k]);
-    const std::string name = "WARNING: Discretization > Bond Filters: " + name_of(k, ball, deck.discretization);
+    const std::string name = "WARNING: Discretization > Bond Filters: " + name_of(k, drawn, ball, deck.discretization);
     std::vector<int> beside;
     for (const auto& [i, other] : domain.separated) {
       if ((beside.empty() || beside.back() != i) && may_part(ball, domain, i)) beside.push_back(i);

@@ -1,6 +1,10 @@
 #include "mechanics/serialize.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "mechanics/formulation/flow.hpp"
@@ -10,38 +14,118 @@ namespace strut {
 
 namespace {
 
-// Collective. A hash of the node sets that points are in, independent of their distribution over the ranks.
-double mark_of_sets(const Body& body) {
+std::uint64_t mixed(std::uint64_t word, std::uint64_t other) {
+  const std::uint64_t first = (word + 1) * 0x9e3779b97f4a7c15u;
+  return (first ^ (first >> 31) ^ other) * 0xbf58476d1ce4e5b9u;
+}
+
+std::uint64_t word_of(const std::string& name) {
+  std::uint64_t word = 0;
+  for (const char c : name) word = mixed(word, static_cast<unsigned char>(c));
+  return word;
+}
+
+std::vector<std::uint64_t> words_of(const std::vector<std::string>& names) {
+  std::vector<std::uint64_t> words;
+  for (const std::string& name : names) words.push_back(word_of(name));
+  return words;
+}
+
+// Collective. A hash of what word(i) says of each owned point, independent of their distribution over the ranks.
+template <class Word>
+double mark_of(const Body& body, const Word& word) {
   constexpr std::uint64_t digits = (std::uint64_t{1} << 52) - 1;  // that a double holds exactly
-  const PointCloud& cloud = body.domain.cloud;
+  const Domain& domain = body.domain;
   std::uint64_t sum = 0;
   for (int i = 0; i < body.owned(); ++i) {
-    std::uint64_t mixed = (cloud.sets[i] + 1) * 0x9e3779b97f4a7c15u;
-    mixed = (mixed ^ (mixed >> 31) ^ static_cast<std::uint64_t>(cloud.ids[i])) * 0xbf58476d1ce4e5b9u;
-    sum += mixed >> 20;
+    sum += mixed(word(i), static_cast<std::uint64_t>(domain.cloud.ids[i])) >> 20;
   }
-  const std::int64_t all = body.domain.communicator.sum(static_cast<std::int64_t>(sum));
+  const std::int64_t all = domain.communicator.sum(static_cast<std::int64_t>(sum));
   return static_cast<double>(static_cast<std::uint64_t>(all) & digits);
 }
 
+// By their names, which conditions use; the order of the sets is free.
+double mark_of_sets(const Body& body) {
+  const std::vector<std::uint64_t> names = words_of(body.domain.cloud.set_names);
+  return mark_of(body, [&](int i) {
+    std::uint64_t sum = 0;
+    for (std::size_t k = 0; k < names.size(); ++k) sum += (body.domain.cloud.sets[i] >> k & 1) * names[k];
+    return sum;
+  });
+}
+
+double mark_of_blocks(const Body& body) {
+  const std::vector<std::uint64_t> names = words_of(body.domain.cloud.block_names);
+  return mark_of(body, [&](int i) { return names[body.domain.cloud.blocks[i]]; });
+}
+
+// The bonds of the set-up, the broken ones included, in any order. An image counts as its original.
+double mark_of_bonds(const Body& body) {
+  const Domain& domain = body.domain;
+  return mark_of(body, [&](int i) {
+    std::uint64_t count = 0, sum = 0;
+    const auto add = [&](int j) {
+      ++count, sum += mixed(static_cast<std::uint64_t>(Images::original(domain.id(j))), 0);
+    };
+    domain.families.for_each(i, add);
+    if (body.has_lost_bonds(i)) std::ranges::for_each(domain.families.broken[i], add);
+    return mixed(sum, count);
+  });
+}
+
+// Without their surfaces, which are sums over faces. 0: the mesh has no shapes, or nothing needs them.
+double mark_of_cells(const Body& body) {
+  const std::vector<CellShape>& shapes = body.domain.cloud.shapes;
+  if (body.domain.communicator.max(shapes.empty() ? 0.0 : 1.0) == 0) return 0;
+  return mark_of(body, [&](int i) {
+    std::uint64_t word = 0;
+    for (const double x : shapes[i].offset) word = mixed(word, std::bit_cast<std::uint64_t>(x));
+    for (const double x : shapes[i].moments) word = mixed(word, std::bit_cast<std::uint64_t>(x));
+    return word;
+  });
+}
+
+// Those of a start can be any: its deck has node sets of its own, and may need shapes that the other one did not.
 enum class Sets { same, any };
+
+// What no column of the checkpoint shows: a number of it, and what the user reads if it is another one there.
+struct Mark {
+  const char* name;
+  double own;
+  const char* text;
+  bool may_be_none = false;
+  double kept = own;
+
+  bool differs() const { return kept != own && !(may_be_none && (kept == 0 || own == 0)); }
+};
+
+std::vector<Mark> marks_of(const Body& body, Sets which) {
+  std::vector<Mark> marks = {
+      {"blocks", mark_of_blocks(body), "in blocks of other names"},
+      {"bonds", mark_of_bonds(body), "bonded to others (by a mesh of Bond Filters, or the nodes that elements share)"},
+      {"cells", mark_of_cells(body), "of other shapes", which == Sets::any}};
+  if (which == Sets::same) marks.push_back({"node_sets", mark_of_sets(body), "in other node sets"});
+  return marks;
+}
 
 // Collective. Compares the mesh with that of the checkpoint; nothing of it is restored.
 void compare_reference(Archive& archive, const Body& body, Sets which) {
-  const double own_sets = which == Sets::same ? mark_of_sets(body) : 0;
-  double sets = own_sets;
-  if (which == Sets::same) archive.number("node_sets", sets);
+  std::vector<Mark> marks = marks_of(body, which);
+  for (Mark& mark : marks) archive.number(mark.name, mark.kept);
   std::vector<Eigen::Array4d> kept;
   for (int i = 0; i < body.owned(); ++i) kept.push_back(body.domain.sites[i].reference);
   archive.field("reference", 4, [&](std::size_t i, int c) -> double& { return kept[i][c]; });
   bool same = true;
   for (int i = 0; i < body.owned(); ++i) same = same && (kept[i] == body.domain.sites[i].reference).all();
-  raise_together(body.domain.communicator,
-                 same && sets == own_sets
-                     ? ""
-                     : std::string("the mesh is not the one with which the run began: points are ") +
-                           (same ? "in other node sets" : "at other places, or of other volumes") +
-                           "; a run can go on with the same one only");
+  std::vector<std::string> others;
+  if (body.domain.communicator.max(same ? 0.0 : 1.0) > 0) others.push_back("at other places, or of other volumes");
+  for (const Mark& mark : marks) {
+    if (mark.differs()) others.push_back(mark.text);
+  }
+  raise_together(body.domain.communicator, others.empty()
+                                               ? ""
+                                               : "the mesh is not the one with which the run began: points are " +
+                                                     joined(others) + "; a run can go on with the same one only");
 }
 
 Places places_of(const MaterialBlock& block) {

@@ -1,5 +1,8 @@
 #include "run/input.hpp"
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -7,7 +10,9 @@
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
 #include "checkpoint/checkpoint.hpp"
+#include "io/check_sum.hpp"
 #include "io/file_lock.hpp"
+#include "materials/user_law.hpp"
 #include "output/variables.hpp"
 #include "output/writers.hpp"
 #include "run/run_control.hpp"
@@ -91,6 +96,35 @@ PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const C
   check_output_variables(deck, cloud, communicator, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   return cloud;
+}
+
+UserLibraries::UserLibraries(const deck::Deck& deck, const Communicator& communicator) {
+  for (const deck::Material& material : deck.materials) {
+    const auto* law = std::get_if<materials::UserLaw>(&material.law);
+    if (!law) continue;
+    std::vector<double> mark(1);
+    run_on_root(communicator, [&] {
+      std::ifstream file(law->function.file, std::ios::binary);
+      io::CheckSum sum;
+      sum.add(std::string(std::istreambuf_iterator<char>(file), {}));
+      mark[0] = sum.value();
+    });
+    communicator.broadcast(mark);
+    all_.push_back({"Materials > " + material.name + " > Library: '" + law->function.file + "'", mark[0], mark[0]});
+  }
+  std::ranges::sort(all_, {}, &Library::path);
+}
+
+void UserLibraries::serialize(Archive& archive) {
+  for (std::size_t k = 0; k < all_.size(); ++k) archive.number("user_library_" + std::to_string(k), all_[k].before);
+}
+
+std::string UserLibraries::changed() const {
+  std::vector<std::string> others;
+  for (const Library& one : all_) {
+    if (one.before != one.mark) others.push_back(one.path);
+  }
+  return others.empty() ? "" : joined(others) + " is not the file with which the run began";
 }
 
 }  // namespace strut

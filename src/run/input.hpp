@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "base/archive.hpp"
 #include "deck/deck.hpp"
 #include "io/exodus/exodus.hpp"
 #include "topology/cloud.hpp"
@@ -26,5 +29,21 @@ void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, d
 // Returns true if it resumes from one with thermal strains.
 bool look_at_checkpoint(const deck::Deck& deck, bool begins_anew, const Communicator& communicator,
                         deck::Problems& problems);
+
+// The contents of the deck's user libraries: no key shows that one has been compiled anew.
+class UserLibraries {
+ public:
+  UserLibraries(const deck::Deck& deck, const Communicator& communicator);  // collective; reads them
+  void serialize(Archive& archive);
+  // Those that are not the files of the checkpoint, by their keys; "" if there are none.
+  std::string changed() const;
+
+ private:
+  struct Library {
+    std::string path;     // "Materials > m > Library: 'law.so'"
+    double mark, before;  // a check sum of its bytes; the same of the checkpoint
+  };
+  std::vector<Library> all_;  // by the names of the materials, whose order in a deck is free
+};
 
 }  // namespace strut

@@ -80,6 +80,9 @@ double largest_volume_change(const Body& body) {
 
 // Collective.
 std::string balance_of(const Ledger& ledger, const Body& body) {
+  if (!std::isfinite(ledger.balance_error)) {
+    return "energies are too large for a number. Likely causes: a load, a speed or a density far too large";
+  }
   const double change = largest_volume_change(body);
   std::ostringstream text;
   text << "the balance of energy has an error of " << 100 * ledger.balance_error << " % of the largest energy, "

@@ -162,6 +162,12 @@ void check_step_at(double time, const StepControl& control, double limit) {
   const double step = control.fixed_dt > 0 ? control.fixed_dt : control.safety_factor * limit;
   const double apart = std::nextafter(std::abs(time), std::numeric_limits<double>::infinity()) - std::abs(time);
   if (!(step < least * apart)) return;
+  if (time == 0) {
+    throw Error(
+        formatted("Solver > Verlet: steps of %.2g s are too short for numbers; expected a longer Fixed dt, or less "
+                  "stiffness beside the Density",
+                  step));
+  }
   throw Error(
       formatted("Solver > Initial Time: at t = %.4g s numbers are %.2g s apart, too far for steps of %.2g s; "
                 "expected a time nearer to 0",

@@ -15,6 +15,7 @@
 #include "run/report.hpp"
 #include "run/run_control.hpp"
 #include "run/start_from.hpp"
+#include "setup/families.hpp"
 #include "setup/setup.hpp"
 
 namespace strut {
@@ -62,6 +63,7 @@ struct Run::Parts {
   std::optional<CentralDifference> steps;  // for explicit steps, else
   std::optional<QuasiStatic> equilibria;
   std::optional<Monitor> monitor;
+  std::optional<UserLibraries> libraries;
   std::optional<Checkpoint> checkpoint;
   std::optional<Progress> progress;  // of explicit steps
   int before = 0;                    // number of steps of the earlier run that this one resumes
@@ -113,9 +115,12 @@ struct Run::Parts {
 void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Start start) {
   const bool has_expanded = look_at_checkpoint(deck, start == Start::anew, communicator, problems);
   const bool continued = start == Start::continued && checkpoint_exists(deck, communicator);
+  libraries.emplace(deck, communicator);
   std::optional<StartState> state;
   if (!continued) state = start_state_of(deck, communicator, problems);
-  scene = strut::set_up(deck, checked_mesh(deck, std::move(problems), communicator, in_memory.mesh), communicator);
+  PointCloud mesh = checked_mesh(deck, std::move(problems), communicator, in_memory.mesh);
+  read_cracks(deck, communicator);
+  scene = strut::set_up(deck, std::move(mesh), communicator);
   const std::string started = state ? state->restore(deck, *scene) : "";
   keep_expansion(has_expanded, scene->body);
   // Advice is of the start, where these bodies are no longer, and were not as the mesh has them.
@@ -163,6 +168,9 @@ void Run::Parts::open(Start start) {
     monitor->serialize_tools(archive, scene->tools.size());
     balance.serialize(archive, scene->body);
     writers->serialize(archive, number_of_steps(), time());
+    libraries->serialize(archive);
+    if (const std::string changed = libraries->changed(); !changed.empty())
+      throw Error(changed + "; a run can go on with the same one only");
   });
   if (start == Start::continued && checkpoint_exists(deck, communicator)) {
     checkpoint->load();

@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "mechanics/energies.hpp"
 #include "mechanics/serialize.hpp"
+#include "run/input.hpp"
 #include "setup/conditions.hpp"
 #include "setup/setup.hpp"
 #include "topology/point_group.hpp"
@@ -162,7 +163,9 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   Body& body = scene.body;
   keep_expansion(facts_.has_expanded, body);
   const contact::Kinematics kinematics{body.domain, body.velocity, body.density};
+  UserLibraries libraries(deck, communicator_);
   const auto pass = [&](Archive archive, double& last_step) {
+    libraries.serialize(archive);
     archive.number("dt", last_step);
     serialize_for_start(archive, body);
     if (changes_.same_conditions) serialize_reaches(archive, scene.conditions);
@@ -197,7 +200,9 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   };
   begin_from_here(deck, {goes_on_, changes_.same_conditions}, knows_reaches, scene, communicator_);
   const bool jumps = keeps_velocities_ && !changes_.after_equilibria && !changes_.masses.empty();
+  const std::string other_laws = libraries.changed();
   return (facts_.note.empty() ? "" : "WARNING: " + facts_.note + "\n") +
+         (other_laws.empty() ? "" : "WARNING: " + other_laws + " (" + facts_.file.string() + ")\n") +
          (jumps ? "WARNING: " + changes_.masses + ": momentum and kinetic energy are not those of the checkpoint\n"
                 : "") +
          story(deck, scene);

@@ -84,6 +84,8 @@ std::vector<FlatCrack> flat_parts(const Crack& crack) {
 
 std::vector<Crack> cracks_of(const deck::Deck& deck, const Communicator& communicator) {
   std::vector<Crack> cracks = deck.discretization.cracks;
+  const auto is_from_a_file = [](const Crack& crack) { return std::holds_alternative<TriangulatedCrack>(crack); };
+  if (std::ranges::any_of(cracks, is_from_a_file)) return cracks;  // read before
   for (const auto& file : deck.discretization.shells) {
     cracks.emplace_back(TriangulatedCrack{io::read_shells(file, communicator)});
   }
@@ -102,6 +104,11 @@ std::vector<int> points_on(const Crack& crack, const std::vector<int>& points, c
     if (is_on) found.push_back(i);
   }
   return found;
+}
+
+void read_cracks(deck::Deck& deck, const Communicator& communicator) {
+  const Timed timed(phase("Families"));
+  deck.discretization.cracks = cracks_of(deck, communicator);
 }
 
 // Builds the families of the partitioned cloud and drops degenerate points. Dropping one may make others degenerate.

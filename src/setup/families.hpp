@@ -22,4 +22,8 @@ std::vector<Crack> cracks_of(const deck::Deck& deck, const Communicator& communi
 // Those of the owned points that the crack contains, to round-off, so that it cuts their bonds to both sides.
 std::vector<int> points_on(const Crack& crack, const std::vector<int>& points, const Domain& domain);
 
+// Collective. Reads the surfaces of Bond Filters into the deck's cracks, for all partitions of a run: their files may
+// be gone by the next.
+void read_cracks(deck::Deck& deck, const Communicator& communicator);
+
 }  // namespace strut

@@ -73,7 +73,7 @@ std::string percent(double share) { return text_of(std::setprecision(3), 100 * s
 std::string report_of(const Body& body, const std::vector<Added>& added, double wanted) {
   std::ostringstream text;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    if (added[b].added == 0) continue;
+    if (added[b].scaled == 0) continue;  // what round-off adds is no mass
     text << "mass scaling for a step of " << wanted << " s: block '" << body.blocks[b].name << "' gets "
          << added[b].added << " kg, " << percent(added[b].share()) << " of its own, on " << added[b].scaled << " of "
          << added[b].points << " points\n";

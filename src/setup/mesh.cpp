@@ -51,15 +51,19 @@ bool needs_cells(const deck::Deck& deck) {
          });
 }
 
-// Marks the points with these numbers; returns how many were found.
-std::size_t mark_numbers(const std::vector<int>& numbers, std::uint64_t bit, PointCloud& cloud) {
-  std::size_t found = 0;
+// Collective. Marks the points with these numbers; returns how many of the numbers were found. A mesh may have one of
+// them twice.
+std::int64_t mark_numbers(const std::vector<int>& numbers, std::uint64_t bit, PointCloud& cloud,
+                          const Communicator& communicator) {
+  std::vector<double> found(numbers.size(), 0);  // 1: it was
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!std::binary_search(numbers.begin(), numbers.end(), cloud.element_ids[i])) continue;
+    const auto place = std::lower_bound(numbers.begin(), numbers.end(), cloud.element_ids[i]);
+    if (place == numbers.end() || *place != cloud.element_ids[i]) continue;
     cloud.sets[i] |= bit;
-    ++found;
+    found[place - numbers.begin()] = 1;
   }
-  return found;
+  communicator.max(found);
+  return std::count(found.begin(), found.end(), 1.0);
 }
 
 // Collective. Marks the point whose position(i) is nearest to a place; of several the one that the mesh has first.
@@ -114,7 +118,7 @@ bool is_taken(const deck::NodeSet& set, const PointCloud& cloud, std::size_t set
 void add_numbered_set(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud, const Communicator& communicator,
                       deck::Problems& problems) {
   const std::vector<int>& numbers = *set.numbers;
-  const auto found = communicator.sum(static_cast<std::int64_t>(mark_numbers(numbers, bit, cloud)));
+  const std::int64_t found = mark_numbers(numbers, bit, cloud, communicator);
   const auto points = communicator.sum(static_cast<std::int64_t>(cloud.size()));
   if (found == static_cast<std::int64_t>(numbers.size())) return;
   problems.add(path_of(set), "names " + std::to_string(numbers.size()) + " points, up to number " +

@@ -58,6 +58,14 @@ says 2 "'--explain' needs a key" --explain
 says 2 "'--log' needs a file, and a deck" --log log
 says 2 "does not say what to do" --log deck.xml deck.xml
 log=$(mktemp) || exit 1
+# What cannot be printed is an error, but for a reader that has gone.
+if [ -w /dev/full ]; then
+  said=$("$strut" --keys 2>&1 > /dev/full) && fail "strut --keys on a full disk: status 0"
+  [ "$said" = "strut: standard output cannot be written, or not all of it (a full disk?)" ] || fail "a full disk: $said"
+fi
+{ "$strut" --keys; echo $? > "$log"; } | true
+[ "$(cat "$log")" = 0 ] || fail "strut --keys for a reader that has gone: status $(cat "$log")"
+: > "$log"
 says 1 "nothere.xml: the deck does not exist" --log "$log" nothere.xml
 of_log() { tail -n +2 "$log"; }  # the first line says that it is one
 [ "$(of_log)" = "strut: nothere.xml: the deck does not exist" ] || fail "the log has: $(cat "$log")"

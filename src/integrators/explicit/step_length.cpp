@@ -76,8 +76,8 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
     const double longest = longest_step(contact_stiffness, body.may_break(), estimated);
     if (std::isinf(longest)) {
       throw Error(
-          "Solver > Verlet: no point has neighbors or touches another, so that nothing limits the time step; "
-          "expected a Fixed dt");
+          "Solver > Verlet: nothing limits the time step: no point has neighbors or touches another, or stiffness is "
+          "nothing beside the Density; expected a Fixed dt");
     }
     dt_ = left / std::ceil(left / longest * (1 - round_off));
     if (levels_anew_) step_of_bound_ = dt_;

@@ -41,6 +41,13 @@ NetcdfLists opened(const fs::path& path) {
   return file;
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
 [[noreturn]] void differs(const fs::path& path, const std::string& what) {
   throw Error(path.string() + ": is of another deck or mesh: " + what +
               ". A run can go on with another final time, and other times of output, not with another model");
@@ -56,8 +63,13 @@ void compare(const fs::path& path, const NetcdfLists& file, const Snapshot& snap
   for (const auto& [name, value] : snapshot.shares) {
     if (file.size(name_of_share(name)) == 0) differs(path, "it has no number '" + name + "'");
   }
+  const std::vector<std::string> groups = lines_of(file.text(name_of_groups));
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
     const Snapshot::Group& group = snapshot.groups[g];
+    if (g >= groups.size() || groups[g] != group.name) {
+      differs(path, "it has the points of '" + (g < groups.size() ? groups[g] : "nothing") +
+                        "' where the deck's mesh has '" + group.name + "'");
+    }
     const std::size_t count = file.size(name_of_ids(g));
     if (count != static_cast<std::size_t>(counts[g])) {
       differs(path, group.name + ": " + std::to_string(count) + " points there, " + std::to_string(counts[g]) +
@@ -88,13 +100,6 @@ double sum_of(const NetcdfLists& file, const std::string& name) {
     sum.add(std::span<const T>(values));
   }
   return sum.value();
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
 }
 
 // The check sum of the deck and of all numbers of the file, whether or not the snapshot asks for them.

@@ -45,8 +45,12 @@ std::string said_twice(const std::string& kind, const std::vector<Item>& items, 
   return "";
 }
 
-// The index of the attribute with a name such as "Volume", "SPHERE_VOLUME", "radius".
+// The index of the attribute with a name such as "Volume", "SPHERE_VOLUME", "radius". The name alone comes before one
+// that ends with it, which may be another quantity ("free_volume").
 std::optional<int> attribute_of(const ExodusFile::Block& block, const std::string& wanted) {
+  for (std::size_t k = 0; k < block.attributes.size(); ++k) {
+    if (upper(block.attributes[k]) == wanted) return static_cast<int>(k);
+  }
   for (std::size_t k = 0; k < block.attributes.size(); ++k) {
     if (upper(block.attributes[k]).ends_with(wanted)) return static_cast<int>(k);
   }

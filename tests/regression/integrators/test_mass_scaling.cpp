@@ -54,6 +54,7 @@ TEST(MassScaling, MakesTheStepAsLongAsWanted) {
     EXPECT_LT(share, 0.5) << formulation;
     EXPECT_LT(end.balance_error, 2e-3) << formulation;  // leap-frog steps: (ω dt)² of the modes that ring
     EXPECT_NE(run.advice.warnings.find("mass scaling for a step of"), std::string::npos);
+    EXPECT_EQ(run.advice.warnings.find(" on 0 of "), std::string::npos) << run.advice.warnings;
   }
 }
 

@@ -2,7 +2,10 @@
 // formulation must give what it gives with that law.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "regression/bodies.hpp"
+#include "run/simulation.hpp"
 
 namespace strut::regression {
 namespace {
@@ -132,6 +135,39 @@ TEST(UserLibrary, ThatCannotBeUsedIsRefused) {
     EXPECT_NE(error.find("Materials > copper"), std::string::npos) << error;
     EXPECT_NE(error.find(words), std::string::npos) << error;
   }
+}
+
+// A library that has been compiled anew has other bytes; one more byte at the end of a file changes nothing but these.
+TEST(UserLibrary, ThatHasChangedIsNotThatOfTheCheckpoint) {
+  const RunFolder folder;
+  run_on_root(folder.world, [&] { std::filesystem::copy(STRUT_USER_J2, folder / "law.so"); });
+  const auto outcome = [&](const std::string& until, Start start, const std::string& from = "") {
+    Parts parts = striking(changed(from_library("strut"), STRUT_USER_J2, "law.so"), "Correspondence");
+    parts.times = key("Initial Time", from.empty() ? "0" : "1e-7") + key("Final Time", until);
+    const std::string name = (folder / (from.empty() ? "first" : "second")).string();
+    parts.output = key("Output Filename", name + ".e") + section("Output Variables", key("Displacement", "true"));
+    const std::string solver = R"(<ParameterList name="Solver">)";
+    const auto deck = folder.write(
+        "deck.xml",
+        changed(parts.text(), solver, section("Restart", key("Filename", name + ".restart")) + from + solver));
+    testing::internal::CaptureStdout();
+    std::string error;
+    try {
+      run(deck, folder.world, start);
+    } catch (const Error& one) {
+      error = one.what();
+    }
+    std::string said = testing::internal::GetCapturedStdout() + error;
+    folder.world.broadcast(said);
+    return said;
+  };
+  const std::string from = section("Start From", key("Checkpoint", (folder / "first.restart").string()));
+  const std::string words = "law.so' is not the file with which the run began";
+  EXPECT_EQ(outcome("1e-7", Start::anew).find(words), std::string::npos);
+  EXPECT_EQ(outcome("2e-7", Start::continued).find(words), std::string::npos);
+  run_on_root(folder.world, [&] { std::ofstream(folder / "law.so", std::ios::app) << '.'; });
+  EXPECT_NE(outcome("3e-7", Start::continued).find(words + "; a run can go on"), std::string::npos);
+  EXPECT_NE(outcome("3e-7", Start::anew, from).find("WARNING: Materials > copper > Library"), std::string::npos);
 }
 
 // Its stress is a function of the stretch: where bonds break, the gradient of a family jumps, and the energy with it.

@@ -312,6 +312,39 @@ TEST_F(Mistake, AMeshWithOtherNodeSetsIsNotThatOfTheCheckpoint) {
   EXPECT_EQ(outcome(longer, Start::continued).value_or("no error"), "no error");
 }
 
+// Conditions and materials go by names: with others of the same points a run would go on with another model.
+TEST_F(Mistake, AMeshWithOtherNamesIsNotThatOfTheCheckpoint) {
+  const std::string solver = "<ParameterList name=\"Solver\">";
+  Parts parts = right_parts();
+  parts.materials = copper();  // without state variables, which would have told
+  const std::string deck =
+      changed(parts.text(), solver, section("Restart", key("Filename", "@/kept.restart")) + solver);
+  const std::string longer = changed(deck, "\"5e-6\"", "\"6e-6\"");
+  std::string second =
+      changed(changed(parts.text(), "\"5e-6\"", "\"6e-6\""), key("Initial Time", "0"), key("Initial Time", "5e-6"));
+  second = changed(second, solver, section("Start From", key("Checkpoint", "@/kept.restart")) + solver);
+  for (const std::string file : {"result.e", "history.csv"}) second = changed(second, "@/" + file, "@/second-" + file);
+  const auto write = [&](const std::function<void(io::Mesh&)>& change) {
+    Lattice lattice;
+    lattice.plate_layers = 3;
+    io::Mesh mesh = lattice.mesh();
+    change(mesh);
+    run_on_root(world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+  };
+  const auto error = [&](const std::string& text, Start start) { return outcome(text, start).value_or("no error"); };
+  write([](io::Mesh&) {});
+  EXPECT_EQ(error(deck, Start::anew), "no error");
+  write([](io::Mesh& mesh) { std::swap(mesh.node_sets[0].name, mesh.node_sets[1].name); });
+  EXPECT_NE(error(longer, Start::continued).find("points are in other node sets;"), std::string::npos);
+  write([](io::Mesh& mesh) { std::swap(mesh.blocks[0].name, mesh.blocks[1].name); });
+  EXPECT_NE(error(longer, Start::continued).find("'block 0 (bar)' where the deck's mesh has 'block 0 (plate)'"),
+            std::string::npos);
+  EXPECT_NE(error(second, Start::anew).find("points are in blocks of other names;"), std::string::npos);
+  write([](io::Mesh& mesh) { std::swap(mesh.node_sets[0], mesh.node_sets[1]); });  // the order is free
+  EXPECT_EQ(error(second, Start::anew), "no error");
+  EXPECT_EQ(error(longer, Start::continued), "no error");
+}
+
 // A slip in a section does not hide those that only the mesh shows.
 TEST_F(Mistake, ProblemsOfDeckMeshAndOutputAreToldAtOnce) {
   Parts parts = right_parts();

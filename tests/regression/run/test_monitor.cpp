@@ -254,6 +254,20 @@ TEST(Monitor, PointsThatNothingLimitsNeedAFixedStep) {
   EXPECT_EQ(outcome(folder, parts).error, "");
 }
 
+// Numbers that only a slip of the exponent makes.
+TEST(Monitor, NumbersBeyondAllReasonAreToldForWhatTheyAre) {
+  const RunFolder folder;
+  const auto error = [&](const std::string& density, const std::string& speed) {
+    Parts parts;
+    parts.materials = changed(copper(), "8930", density);
+    parts.conditions = along("flight", "Initial Velocity", "all", "z", speed);
+    return outcome(folder, parts).error;
+  };
+  expect_words(error("1e300", "1"), {"nothing limits the time step", "or stiffness is nothing beside the Density"});
+  expect_words(error("1e-300", "1"), {"Solver > Verlet: steps of", "less stiffness beside the Density"});
+  expect_words(error("8930", "1e308"), {"energies are too large for a number", "a speed"});
+}
+
 // Two blocks of 3 x 3 points, the second thrown at the first. `aside`: how far, m.
 Parts thrown(const RunFolder& folder, const std::string& contact, double aside = 0, int layers = 3) {
   constexpr double h = 1e-3;

@@ -1,8 +1,11 @@
 // The material that a deck's sections give a block.
 #include <gtest/gtest.h>
 
+#include "base/errors.hpp"
+#include "deck/problems.hpp"
 #include "regression/bodies.hpp"
 #include "setup/blocks.hpp"
+#include "setup/mesh.hpp"
 
 namespace strut::regression {
 namespace {
@@ -73,6 +76,24 @@ TEST(Blocks, OfThinMembersAreToldOfTheirResolution) {
                       "expect up to ±1"),
             std::string::npos);
   EXPECT_EQ(told(10, "Quadratic Correspondence", plastic), "");
+}
+
+// A mesh may have a number twice, which is not two numbers.
+TEST(NumberedSets, HaveAllTheirNumbersInTheMesh) {
+  const auto problems_of = [](const std::vector<int>& numbers) {
+    PointCloud cloud;
+    cloud.ids = {0, 1, 2};
+    cloud.element_ids = {1, 1, 3};
+    cloud.sets = {0, 0, 0};
+    deck::NodeSet set;
+    set.name = "Node Set 1";
+    set.numbers = numbers;
+    deck::Problems problems;
+    add_node_sets({set}, cloud, Communicator(), problems);
+    return joined(problems.lines());
+  };
+  EXPECT_EQ(problems_of({1, 3}), "");
+  EXPECT_NE(problems_of({1, 2}).find("names 2 points, up to number 2, of which the mesh has 1;"), std::string::npos);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include "io/exodus/exodus_file.hpp"
 #include "regression/bodies.hpp"
+#include "run/simulation.hpp"
+#include "setup/families.hpp"
 
 namespace strut::regression {
 namespace {
@@ -141,6 +143,65 @@ TEST(BondFilters, ThroughALayerOfPointsAreToldOf) {
       EXPECT_EQ(what.find("Enlarge the horizon"), std::string::npos) << what;
     }
   }
+}
+
+// The file is no part of the checkpoint; the bonds that it has cut are known there.
+TEST(ShellFilters, ThatHaveMovedAreNotThoseOfTheCheckpoint) {
+  const RunFolder folder;
+  const auto write = [&](double z) {
+    const Corners wall = {{Vector(-1e-3, -1e-3, z), Vector(2e-3, -1e-3, z), Vector(2e-3, 5e-3, z)}};
+    run_on_root(folder.world, [&] { write_shells(folder / "shells.g", wall); });
+  };
+  const auto error = [&](const std::string& until, Start start, const std::string& from = "") -> std::string {
+    Parts parts;
+    parts.conditions = along("flight", "Initial Velocity", "all", "z", "-20*z/1e-3");
+    parts.times = key("Initial Time", from.empty() ? "0" : "1e-6") + key("Final Time", until);
+    const std::string name = (folder / (from.empty() ? "first" : "second")).string();
+    parts.output = key("Output Filename", name + ".e") + section("Output Variables", key("Displacement", "true"));
+    const std::string deck = with_filters(parts,
+                                          section("wall", key("Type", "Exodus Mesh") + key("File Name", "shells.g"))),
+                      solver = R"(<ParameterList name="Solver">)";
+    testing::internal::CaptureStdout();
+    std::string text = "no error";
+    try {
+      run(folder.write("deck.xml",
+                       changed(deck, solver, section("Restart", key("Filename", name + ".restart")) + from + solver)),
+          folder.world, start);
+    } catch (const Error& one) {
+      text = one.what();
+    }
+    testing::internal::GetCapturedStdout();
+    return text;
+  };
+  const std::string from = section("Start From", key("Checkpoint", (folder / "first.restart").string()));
+  write(3e-3);
+  EXPECT_EQ(error("1e-6", Start::anew), "no error");
+  write(2e-3);
+  EXPECT_NE(error("2e-6", Start::continued).find("points are bonded to others (by a mesh of Bond Filters"),
+            std::string::npos);
+  EXPECT_NE(error("2e-6", Start::anew, from).find("points are bonded to others (by a mesh of Bond Filters"),
+            std::string::npos);
+  write(3e-3);
+  EXPECT_EQ(error("2e-6", Start::anew, from), "no error");
+  EXPECT_EQ(error("2e-6", Start::continued), "no error");
+}
+
+// A run that spreads its points over the ranks anew needs no file for it.
+TEST(ShellFilters, AreReadOnce) {
+  const RunFolder folder;
+  run_on_root(folder.world, [&] { write_shells(folder / "shells.g", two_walls()); });
+  deck::Deck deck = deck::read(
+      folder.write("deck.xml",
+                   with_filters({}, section("walls", key("Type", "Exodus Mesh") + key("File Name", "shells.g")))),
+      folder.world);
+  read_cracks(deck, folder.world);
+  const Scene scene = set_up(deck, folder.world);
+  run_on_root(folder.world, [&] { std::filesystem::remove(folder / "shells.g"); });
+  const auto bonds = [&](const Scene& one) {
+    return folder.world.sum(static_cast<std::int64_t>(one.body.domain.families.bonds()));
+  };
+  const Scene again = set_up_again(deck, migration_state_of(scene, whole_cloud(scene.body.domain)), folder.world);
+  EXPECT_EQ(bonds(again), bonds(scene));
 }
 
 TEST(ShellFilters, OfAWrongFileAreRefused) {

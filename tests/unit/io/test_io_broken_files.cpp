@@ -282,6 +282,7 @@ TEST_F(BrokenFile, AttributesOfSpheresAreReadByTheirNames) {
   EXPECT_EQ(volume_of({"VOLUME", "Radius"}), 0.5);
   EXPECT_EQ(volume_of({"volume"}), 0.5);
   EXPECT_EQ(volume_of({"density", "angle", "SPH_volume"}), 2.5);
+  EXPECT_EQ(volume_of({"free_volume", "Volume"}), 1.5);
   EXPECT_DOUBLE_EQ(volume_of({"mass", "radius"}), ball * 1.5 * 1.5 * 1.5);
   EXPECT_EQ(volume_of({"", ""}), 1.5);
   EXPECT_DOUBLE_EQ(volume_of({""}), ball / 8);
