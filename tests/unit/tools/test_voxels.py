@@ -1041,6 +1041,23 @@ class Tetrahedra(ToolTest):
         self.mesh(point_sets={"steel 1": np.arange(3), "steel_1": np.arange(4)}).write(self.path("a.inp"))
         self.refused("tetrahedra", "group 'steel 1' and group 'steel_1' would both be 'steel_1'", self.path("a.inp"))
 
+    def test_a_mesh_that_cannot_be_written_costs_no_other(self):
+        self.mesh().write(self.path("a.vtu"))
+        self.works("tetrahedra", self.path("a.vtu"))
+        with open(self.path("out.g"), "rb") as file:
+            kept = file.read()
+        done = subprocess.run(["bash", "-c", 'ulimit -f 4; "$0" "$@"', os.path.join(ROOT, "tools/tetrahedra"), self.path("a.vtu"),
+                               self.path("out.g")], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("out.g cannot be written", done.stderr)
+        with open(self.path("out.g"), "rb") as file:
+            self.assertEqual(file.read(), kept)
+        self.assertFalse(os.path.exists(self.path("out.g.part")))
+        self.write("out.g.part", "of the user")
+        self.assertEqual(self.run_tool("tetrahedra", self.path("a.vtu"), self.path("out.g")).returncode, 1)
+        with open(self.path("out.g.part")) as file:
+            self.assertEqual(file.read(), "of the user")
+
     def test_med(self):
         tags = np.where(self.left, -1, -2)
         mesh = meshio.Mesh(self.points, [("tetra", self.nodes), ("triangle", self.triangles)],
