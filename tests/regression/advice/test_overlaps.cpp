@@ -108,6 +108,24 @@ TEST(Overlaps, OfPiecesOfABodyThatAreNotBondedAreTold) {
   for (const double apart : {5e-3, 5.1e-3}) EXPECT_EQ(told(apart).find("as much material"), std::string::npos) << apart;
 }
 
+// Where no family is full, its volume does not tell.
+TEST(Overlaps, OfThinBodiesAreTold) {
+  const std::string twice = "share no node: elements that overlap, or are given twice?";
+  for (const Lattice& thin : {Lattice{2, 2, 8}, Lattice{4, 4, 2}})
+    EXPECT_NE(told_of_two(thin, Vector::Constant(0.2e-3)).find(twice), std::string::npos);
+  EXPECT_EQ(told_of_two({2, 2, 8}, {0, 0, 8e-3}).find("share no node"), std::string::npos);
+}
+
+// Nodes at one place that are not merged cut a body whose bonds run through material.
+TEST(Overlaps, AreNotWherePartsLieBesideEachOther) {
+  const std::string cut = "64 points, one of them at", unmerged = "nodes at one place that are not merged?";
+  const std::string told = told_of_two({4, 8, 4}, {0, 0, 4e-3}, quadratic());
+  EXPECT_NE(told.find(cut), std::string::npos) << told;
+  EXPECT_NE(told.find(unmerged), std::string::npos) << told;
+  EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4.2e-3}, quadratic()).find(unmerged), std::string::npos);  // a gap
+  EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4e-3}).find(unmerged), std::string::npos);                 // bonded
+}
+
 std::string with_anything() {
   return section("Models", section("m", key("Contact Model", "Short Range Force") + key("Spring Constant", "1e11") +
                                             key("Contact Radius", "1e-3"))) +
