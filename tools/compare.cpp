@@ -158,7 +158,19 @@ std::vector<Difference> differences(const Series& a, const Series& b, const Tole
   return all;
 }
 
-// Differences of structure: number of frames, their times, names, numbers of entities.
+// Points of other blocks may have the same values, and other materials.
+std::string block_problem(const Series& a, const Series& b) {
+  if (a.blocks == b.blocks) return "";
+  const auto told = [](const Series& one) {
+    std::string text;
+    for (const auto& [name, elements] : one.blocks)
+      text += (text.empty() ? "" : ", ") + name + " (" + std::to_string(elements) + ")";
+    return text;
+  };
+  return "the first has the blocks (elements) " + told(a) + ", the second " + told(b);
+}
+
+// Differences of structure: number of frames, their times, blocks, names, numbers of entities.
 std::vector<std::string> mismatches(const Series& a, const Series& b, const Tolerance& tolerance) {
   std::vector<std::string> problems;
   if (a.times.size() != b.times.size()) {
@@ -167,8 +179,8 @@ std::vector<std::string> mismatches(const Series& a, const Series& b, const Tole
   }
   const std::string times = time_problem(a, b, tolerance);
   if (!times.empty()) problems.push_back(times);
-  const std::string places_differ = place_problem(a, b, tolerance);
-  if (!places_differ.empty()) problems.push_back(places_differ);
+  for (const std::string& problem : {place_problem(a, b, tolerance), block_problem(a, b)})
+    if (!problem.empty()) problems.push_back(problem);
   for (const Variable& variable : a.variables) {
     const Variable* other = find(b, variable);
     if (other == nullptr) {

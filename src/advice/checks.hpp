@@ -65,8 +65,9 @@ std::string sudden_stretches(const Situation& situation);
 
 // ---- overlaps.cpp
 
-// Warnings for points around which a body has more material than fits, and for blocks of different bodies
-// inside each other. Coincident points are an error earlier (topology/coincident.hpp).
+// Warnings for points around which a body has more material than fits, for parts of its mesh that are in or beside each
+// other, and for blocks of different bodies inside each other. Coincident points are an error earlier
+// (topology/coincident.hpp).
 std::string overlaps(const Situation& situation);
 
 // ---- cracks.cpp
@@ -126,7 +127,8 @@ std::string oblong_cells(const Situation& situation);
 std::string undeclared_contacts(const Situation& situation);
 
 // A warning for every two blocks of an interaction that are bonded to each other, because contact ignores
-// bonded points; for interactions of all blocks, only if all these bonds bridge a gap.
+// bonded points; for interactions of all blocks, only if all these bonds bridge a gap; for a block and itself, if bonds
+// bridge a gap between parts of its mesh.
 std::string bonded_contacts(const Situation& situation);
 
 // A warning for every two bonded blocks that meet others by surfaces: each senses, and is sensed, as if it ended at the

@@ -7,7 +7,9 @@
 #include <variant>
 
 #include "advice/checks.hpp"
+#include "advice/mesh_nodes.hpp"
 #include "setup/blocks.hpp"
+#include "topology/pieces.hpp"
 
 namespace strut {
 
@@ -60,22 +62,57 @@ std::string undeclared_contacts(const Situation& situation) {
 
 namespace {
 
-// Number of bonds between two blocks, both ends counted as one, and the length of the shortest, m.
+// Number of bonds between two blocks, both ends counted as one, the length of the shortest, m, and how many of them are
+// between elements with nodes, and with a node in common.
 struct BondsBetween {
-  double count = 0, shortest = std::numeric_limits<double>::infinity();
+  double count = 0, shortest = std::numeric_limits<double>::infinity(), meshed = 0, joined = 0;
 };
 
-BondsBetween bonds_between(const Domain& domain, const std::vector<int>& blocks, int first, int second) {
+BondsBetween bonds_between(const Domain& domain, const std::vector<int>& blocks, const MeshNodes& nodes, int first,
+                           int second) {
   BondsBetween bonds;
   for (int i = 0; i < domain.owned; ++i) {
     if (domain.cloud.blocks[i] != first) continue;
     domain.families.for_each(i, [&](int j) {
       if (blocks[j] != second) return;
       ++bonds.count;
+      bonds.meshed += nodes.of_both(i, j) ? 1 : 0;
+      bonds.joined += nodes.of_both(i, j) && nodes.may_join(i, j) ? 1 : 0;
       bonds.shortest = std::min(bonds.shortest, (domain.reference(j) - domain.reference(i)).norm());
     });
   }
-  return {domain.communicator.sum(bonds.count), domain.communicator.min(bonds.shortest)};
+  return {domain.communicator.sum(bonds.count), domain.communicator.min(bonds.shortest),
+          domain.communicator.sum(bonds.meshed), domain.communicator.sum(bonds.joined)};
+}
+
+// Layers of one lattice, or of two matching lattices, are never that many spacings apart. Of elements without a common
+// node a smaller distance tells.
+constexpr double gap_of_points = 1.25, gap_of_elements = 1.02;
+
+double length(const Domain& domain, int i, int j) { return (domain.reference(j) - domain.reference(i)).norm(); }
+
+// For owned points and ghosts the part of the mesh that elements with a common node make, or those that touch without.
+std::vector<std::int64_t> parts_of(const Domain& domain, const MeshNodes& nodes) {
+  std::vector<std::int64_t> parts(domain.sites.size(), 0);
+  if (!nodes.any()) return parts;
+  parts = piece_ids(domain, [&](int i, int j) {
+    return nodes.may_join(i, j) ||
+           length(domain, i, j) <= gap_of_elements * domain.blocks[domain.cloud.blocks[i]].spacing;
+  });
+  parts.resize(domain.sites.size());
+  domain.halo.exchange(parts);
+  return parts;
+}
+
+// Bonds of a block from one part to another, which bridge a gap.
+double bonds_of_parts(const Domain& domain, const std::vector<int>& blocks, const std::vector<std::int64_t>& parts,
+                      int block) {
+  double ends = 0;
+  for (int i = 0; i < domain.owned; ++i) {
+    if (domain.cloud.blocks[i] != block) continue;
+    domain.families.for_each(i, [&](int j) { ends += blocks[j] == block && parts[i] != parts[j] ? 1 : 0; });
+  }
+  return domain.communicator.sum(ends) / 2;
 }
 
 // The blocks of owned points and ghosts.
@@ -97,24 +134,35 @@ std::string remedy(const deck::Deck& deck, const std::string& first, const std::
 std::string bonded_contacts(const Situation& situation) {
   const deck::Deck& deck = situation.deck;
   const Domain& domain = situation.scene.body.domain;
-  constexpr double gap =
-      1.25;  // spacings: layers of one lattice, or of two matching lattices, are never that far apart
   if (deck.interactions.empty()) return "";
   const std::vector<std::string>& names = domain.cloud.block_names;
   const std::vector<int> blocks = blocks_of(domain);
+  const MeshNodes nodes(domain);
+  const std::vector<std::int64_t> parts = parts_of(domain, nodes);
   std::ostringstream text;
   for (int a = 0; a < static_cast<int>(names.size()); ++a) {
-    for (int b = a + 1; b < static_cast<int>(names.size()); ++b) {
+    for (int b = a; b < static_cast<int>(names.size()); ++b) {
       if (domain.blocks[a].body != domain.blocks[b].body) continue;
       const auto is_meant = [&](const deck::Interaction& one) {
         return one.first_block.empty()
-                   ? one.partners != deck::Partners::itself
+                   ? one.partners != (a == b ? deck::Partners::others : deck::Partners::itself)
                    : std::minmax(one.first_block, one.second_block) == std::minmax(names[a], names[b]);
       };
       const auto one = std::find_if(deck.interactions.begin(), deck.interactions.end(), is_meant);
       if (one == deck.interactions.end()) continue;
-      const auto [bonds, shortest] = bonds_between(domain, blocks, a, b);
-      const bool across_gap = shortest > gap * std::max(domain.blocks[a].spacing, domain.blocks[b].spacing);
+      if (a == b) {
+        const double bonds = bonds_of_parts(domain, blocks, parts, a);
+        if (bonds == 0) continue;
+        text << "WARNING: Contact > Interactions > " << one->name << ": parts of block " << names[a]
+             << " that share no node are bonded to each other by " << static_cast<std::int64_t>(bonds)
+             << " bonds across gaps, between whose ends contact never acts; expected, for bodies that meet, a block of "
+                "the mesh for each of them, with Separate Body true\n";
+        continue;
+      }
+      const auto [bonds, shortest, meshed, joined] = bonds_between(domain, blocks, nodes, a, b);
+      const double gap = meshed > 0 ? gap_of_elements : gap_of_points;
+      const bool across_gap =
+          joined == 0 && shortest > gap * std::max(domain.blocks[a].spacing, domain.blocks[b].spacing);
       if (bonds == 0 || (one->first_block.empty() && !across_gap)) continue;
       text << "WARNING: Contact > Interactions > " << one->name << ": blocks " << names[a] << " and " << names[b]
            << " are bonded to each other by " << static_cast<std::int64_t>(bonds)
@@ -145,7 +193,7 @@ std::string surfaces_at_seams(const Situation& situation) {
   const std::vector<int> blocks = blocks_of(domain);
   std::ostringstream text;
   for (const auto& [a, b] : pairs) {
-    if (bonds_between(domain, blocks, a, b).count == 0) continue;
+    if (bonds_between(domain, blocks, MeshNodes(domain), a, b).count == 0) continue;
     text << "WARNING: blocks " << domain.cloud.block_names[a] << " and " << domain.cloud.block_names[b]
          << " are bonded to each other, but each has a surface of its own, and contact by 'Surface' is softer along "
             "their seam (half of the pressure, to two spacings from it); expected one block of the mesh where this "

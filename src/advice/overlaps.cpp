@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "advice/mesh_nodes.hpp"
 #include "contact/interpenetration.hpp"
 #include "setup/found_points.hpp"
 #include "topology/nearby_ranks.hpp"
 #include "topology/neighbors/cell_grid.hpp"
+#include "topology/pieces.hpp"
 
 namespace strut {
 
@@ -17,6 +20,10 @@ namespace {
 // meshes of other elements 1 ± 0.25; a body that is defined twice has 2.
 constexpr double crowded = 1.65;
 constexpr double least_horizon = 1.5;  // in edges of a cube with the point's volume
+// Elements of two parts of a mesh, which have no node in common: nearer than this, in edges of such a cube, points of a
+// body that is defined twice are, and those of tetrahedra at one face are not (0.64).
+constexpr double inside_below = 0.6;
+constexpr double touching = 1.01;  // reaches of both cells, for round-off
 
 // A point as it travels to other ranks.
 struct Grain {
@@ -99,12 +106,124 @@ std::string crowds(const Body& body, std::int64_t pieces) {
 
 }  // namespace
 
+namespace {
+
+// A whole element with nodes, as it travels to other ranks. `part`: what the mesh joins, `piece`: what bonds join.
+struct Element {
+  double place[3], edge, moments[6];
+  std::int64_t body, part, piece;
+
+  // The distance from its point to its face in a direction of unit length, as reach_of_cell().
+  double reach(const Vector& direction) const {
+    const Symmetric all = Eigen::Map<const Symmetric>(moments);  // zero where nothing needs them
+    return std::sqrt(3 * direction.dot(to_tensor(all) * direction));
+  }
+};
+
+// Parts of a body's mesh without a common node: owned points inside of elements of another part, and those beside one
+// that nothing bonds to them.
+struct AtOtherParts {
+  std::vector<int> inside, beside;
+};
+
+// A partly filled cell has its point anywhere, and its neighbors may be parts of their own.
+bool is_whole(const Domain& domain, int i) {
+  const double whole = std::pow(domain.cloud.spacings[i], 3);
+  return !domain.cloud.shared_nodes[i].empty() && std::abs(domain.volume(i) - whole) < 1e-6 * whole;
+}
+
+// Collective. The whole elements of this rank, `points` their local indices.
+std::vector<Element> whole_elements(const Domain& domain, const std::vector<std::int64_t>& parts,
+                                    std::vector<int>& points) {
+  const std::vector<std::int64_t> pieces = piece_ids(domain);
+  std::vector<Element> elements;
+  for (int i = 0; i < domain.owned; ++i) {
+    if (!is_whole(domain, i)) continue;
+    const Vector X = domain.reference(i);
+    points.push_back(i);
+    elements.push_back({{X[0], X[1], X[2]}, domain.cloud.spacings[i], {}, domain.body_of(i), parts[i], pieces[i]});
+    if (!domain.cloud.shapes.empty()) Eigen::Map<Symmetric>(elements.back().moments) = domain.cloud.shapes[i].moments;
+  }
+  return elements;
+}
+
+// Collective.
+AtOtherParts at_other_parts(const Domain& domain) {
+  const MeshNodes nodes(domain);
+  if (!nodes.any()) return {};
+  const std::vector<std::int64_t> parts = nodes.parts(domain);
+  std::int64_t count = 0;
+  for (int i = 0; i < domain.owned; ++i) count += parts[i] == domain.id(i) ? 1 : 0;
+  if (!has_pieces(domain, domain.communicator.sum(count))) return {};
+  std::vector<int> points;
+  std::vector<Element> elements = whole_elements(domain, parts, points);
+  std::vector<Vector> places;
+  Eigen::AlignedBox3d mine;
+  double near = std::numeric_limits<double>::min();
+  for (const Element& one : elements) {
+    places.emplace_back(one.place[0], one.place[1], one.place[2]);
+    mine.extend(places.back());
+    const double widest = std::sqrt(3 * (one.moments[0] + one.moments[1] + one.moments[2]));
+    near = std::max({near, one.edge, 2 * touching * widest});
+  }
+  near = domain.communicator.max(near);
+  for (const Element& one :
+       from_nearby_ranks(mine, places, std::span<const Element>(elements), near, domain.communicator)) {
+    elements.push_back(one);
+    places.emplace_back(one.place[0], one.place[1], one.place[2]);
+  }
+  const CellGrid grid(places, near);
+  AtOtherParts found;
+  for (std::size_t e = 0; e < points.size(); ++e) {
+    const Element& one = elements[e];
+    bool is_inside = false, is_beside = false;
+    grid.visit_near(places[e], [&](int j, const Vector& y) {
+      const Element& other = elements[j];
+      if (other.body != one.body || other.part == one.part) return;
+      const Vector between = y - places[e];
+      const double apart = between.norm();
+      is_inside = is_inside || apart < inside_below * std::min(one.edge, other.edge);
+      const Vector direction = between.stableNormalized();
+      is_beside =
+          is_beside || (other.piece != one.piece && apart < touching * (one.reach(direction) + other.reach(direction)));
+    });
+    if (is_inside) found.inside.push_back(points[e]);
+    if (is_beside) found.beside.push_back(points[e]);
+  }
+  return found;
+}
+
+std::string told_of_parts(const Body& body, bool crowds_are_told) {
+  const AtOtherParts found = at_other_parts(body.domain);
+  const std::vector<FoundPoints> points = found_points(body, {found.inside, found.beside});
+  const FoundPoints &inside = points[0], &beside = points[1];
+  std::ostringstream text;
+  if (inside.count > 0 && !crowds_are_told) {
+    text << "WARNING: " << inside.count << " points, one of them at " << place_text(inside.one) << ", are nearer than "
+         << inside_below
+         << " of an element's edge to others of their body with which they share no node: elements that "
+         << "overlap, or are given twice? Mass and stiffness count twice there\n";
+  } else if (beside.count > 0 && inside.count == 0) {
+    text
+        << "WARNING: " << beside.count << " points, one of them at " << place_text(beside.one)
+        << ", lie beside others of their body with which they share no node, and nothing connects the two, since bonds "
+           "run through material only: nodes at one place that are not merged? Expected one node at each place, Bonds "
+           "Across Voids true, or, for bodies that meet, Separate Body true\n";
+  }
+  return text.str();
+}
+
+}  // namespace
+
 std::string overlaps(const Situation& situation) {
   const Body& body = situation.scene.body;
   const Domain& domain = body.domain;
   std::ostringstream text;
   // Cells of a grid do not overlap, and boxes of them hold more than the horizon.
-  if (situation.deck.discretization.type != deck::MeshType::grid) text << crowds(body, situation.scene.pieces);
+  if (situation.deck.discretization.type != deck::MeshType::grid) {
+    const std::string crowded_points = crowds(body, situation.scene.pieces);
+    text << crowded_points << told_of_parts(body, !crowded_points.empty());
+  }
   for (const auto& [first, second, points] : contact::overlapping_blocks(domain)) {
     const FoundPoints found = found_points(body, {points})[0];
     if (found.count == 0) continue;

@@ -8,10 +8,12 @@ namespace strut {
 
 namespace {
 
-UnionFind joined_on_this_rank(const Domain& domain) {
+UnionFind joined_on_this_rank(const Domain& domain, const std::function<bool(int, int)>& joins) {
   UnionFind sets(domain.sites.size());
   for (int i = 0; i < domain.owned; ++i) {
-    domain.families.for_each(i, [&](int j) { sets.join(i, j); });
+    domain.families.for_each(i, [&](int j) {
+      if (sets.first(i) != sets.first(j) && joins(i, j)) sets.join(i, j);
+    });
   }
   return sets;
 }
@@ -19,9 +21,9 @@ UnionFind joined_on_this_rank(const Domain& domain) {
 }  // namespace
 
 // Each rank joins the points that it has, and takes over the least id that its ghosts have, until nothing changes.
-std::vector<std::int64_t> piece_ids(const Domain& domain) {
+std::vector<std::int64_t> piece_ids(const Domain& domain, const std::function<bool(int, int)>& joins) {
   const int count = static_cast<int>(domain.sites.size());
-  UnionFind sets = joined_on_this_rank(domain);
+  UnionFind sets = joined_on_this_rank(domain, joins);
   std::vector<std::int64_t> of_point(count), least(count, 0);  // least: of each set, at its first point
   for (int i = 0; i < count; ++i) of_point[i] = domain.id(i);
   for (bool changed = true; changed;) {
@@ -37,6 +39,10 @@ std::vector<std::int64_t> piece_ids(const Domain& domain) {
   }
   of_point.resize(domain.owned);
   return of_point;
+}
+
+std::vector<std::int64_t> piece_ids(const Domain& domain) {
+  return piece_ids(domain, [](int, int) { return true; });
 }
 
 // Each piece is counted by the rank that owns its first point.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "topology/domain.hpp"
@@ -10,6 +11,8 @@ namespace strut {
 
 // Collective. For each owned point, the least id of the points of its piece.
 std::vector<std::int64_t> piece_ids(const Domain& domain);
+// The same by those bonds alone for which joins(owned point, point) is true.
+std::vector<std::int64_t> piece_ids(const Domain& domain, const std::function<bool(int, int)>& joins);
 
 // Collective. The number of pieces.
 std::int64_t count_pieces(const Domain& domain);

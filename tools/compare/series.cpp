@@ -8,6 +8,7 @@
 #include "base/files.hpp"
 #include "base/numbers.hpp"
 #include "io/exodus/exodus.hpp"
+#include "io/exodus/exodus_file.hpp"
 
 namespace strut::compare {
 
@@ -78,6 +79,10 @@ Series read_exodus(const std::filesystem::path& path) {
   }
   for (std::size_t v = 0; v < result.element.size(); ++v) {
     series.variables.push_back({result.element_names[v], "element", std::move(result.element[v])});
+  }
+  for (const io::ExodusFile::Block& block : io::ExodusFile::open(path).blocks()) {
+    const std::string name = block.name.empty() ? "block_" + std::to_string(block.id) : block.name;
+    if (block.elements > 0) series.blocks.emplace_back(name, block.elements);
   }
   return series;
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace strut::compare {
@@ -19,6 +21,8 @@ struct Series {
   // x, y, z of the undeformed nodes, m; empty for a history.
   std::array<std::vector<double>, 3> places = {};
   std::vector<Variable> variables;
+  // Names and numbers of elements, in the order of the file; without empty ones, which say nothing of a point.
+  std::vector<std::pair<std::string, std::int64_t>> blocks = {};
 };
 
 // An Exodus result: a frame per time step. A CSV history (with the suffix ".csv"): one frame, whose entities are the

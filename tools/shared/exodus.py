@@ -69,15 +69,18 @@ def numbers_of(names, prefix):
 
 def write_mesh(path, nodes, blocks, sets):
     """nodes: N x 3, in m; blocks: (name, HEX8|TET4|SPHERE, elements x nodes, volumes or None); sets: {name: nodes}.
-    Returns a line about it."""
+    Returns a line about it. It is renamed when it is whole: where the disk is full, an earlier mesh stays."""
     import netCDF4
     import numpy as np
 
-    check(path, blocks, sets)
+    whole = os.path.realpath(path)
+    part = whole + ".part"
+    for file in (path, part):
+        check(file, blocks, sets)
     largest = max([8 * len(nodes), *(4 * elements.size for _, _, elements, _ in blocks)])
     later = []
     try:
-        with netCDF4.Dataset(path, "w", format=f"NETCDF3_64BIT_{'OFFSET' if largest <= LARGEST else 'DATA'}") as file:
+        with netCDF4.Dataset(part, "w", format=f"NETCDF3_64BIT_{'OFFSET' if largest <= LARGEST else 'DATA'}") as file:
             file.set_fill_off()
 
             def put(name, kind, values, words=None, **sizes):
@@ -121,8 +124,12 @@ def write_mesh(path, nodes, blocks, sets):
             for variable, values in later:
                 if len(values):
                     variable[:] = values + 1 if variable.name.startswith(("connect", "node_ns")) else values
+        os.replace(part, whole)
     except (OSError, RuntimeError) as error:
         fail(f"{path} cannot be written: {error}")
+    finally:
+        if os.path.exists(part):
+            os.unlink(part)
     return f"{path}: {sum(len(b[2]) for b in blocks)} points, {len(nodes)} nodes; node sets {', '.join(sets)}"
 
 

@@ -14,10 +14,12 @@ class Sample:
     def __init__(self, mesh):
         file = opened(mesh)
         try:
-            blocks = [name[len("connect"):] for name in file.variables if name.startswith("connect")]
+            # In the order of the elements' numbers, whatever that of the file's variables.
+            blocks = [n for n in range(1, len(file.dimensions["num_el_blk"]) + 1)
+                      if f"connect{n}" in file.variables and len(file[f"connect{n}"])]
             parts = [extent.cells_of(file, number) for number in blocks]
             boxes = [extent.box_of(file, number) for number in blocks]
-            count = sum(len(file[f"connect{number}"]) for number in blocks)
+            count = sum(len(file[f"connect{n}"]) for n in blocks)
             self.numbers = file["elem_num_map"][:] if "elem_num_map" in file.variables else 1 + np.arange(count)
         except (OSError, IndexError, KeyError, AttributeError) as error:
             fail(f"{mesh} is not an Exodus mesh: {error}")

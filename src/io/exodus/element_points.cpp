@@ -95,6 +95,7 @@ class Converter {
       }
       add_point(point, sets);
       if (with_cells_) add_cell(block, e);
+      cloud_.shared_nodes.push_back(nodes_of(slice_, block, e, planes_, cloud_.spacings.back()));
     }
   }
 
@@ -114,7 +115,6 @@ class Converter {
       shape.surface = block.cells[element].surface;
       shape.surface_moments = block.cells[element].surface_moments;
     }
-    cloud_.shared_nodes.push_back(nodes_of(slice_, block, element, planes_, cloud_.spacings.back()));
   }
 
   const MeshSlice& slice_;

@@ -27,10 +27,10 @@ namespace strut::io {
 // hex8 or tet4 element, in the first of its blocks in the file; ids count the file's nodes from 0.
 // Throws Error on all ranks: file missing, not Exodus, unsupported element type, no elements, volume not positive
 // (names element and block, or node), more than 64 node sets; points at the nodes of spheres.
-// `with_cells`: also shapes and shared nodes of the points (cloud.hpp); faces on symmetry `planes` are no
-// surface, and go to `apart`.
-// HEX8 blocks with the attributes of PartialCell: volume and position of a point at an element are those of the cell;
-// the spacing is the hexahedron's. Throws Error for an invalid cell (names element and block), and for points at nodes.
+// Points at elements have the shared nodes of cloud.hpp. `with_cells`: also shapes, and shared nodes of points at
+// nodes; faces on symmetry `planes` are no surface, and go to `apart`. HEX8 blocks with the attributes of PartialCell:
+// volume and position of a point at an element are those of the cell; the spacing is the hexahedron's. Throws Error for
+// an invalid cell (names element and block), and for points at nodes.
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator,
                        PointsAt at = PointsAt::elements, bool with_cells = false,
                        const std::vector<Mirror>& planes = {}, FacesOnPlanes* apart = nullptr);

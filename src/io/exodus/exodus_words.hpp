@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +46,27 @@ class NameTable {
 
 inline std::string quoted(const std::string& name, std::int64_t id) {
   return name.empty() ? std::to_string(id) : "'" + name + "'";
+}
+
+// Reports blocks, or node sets, with the same number or name: the library finds them by number, the deck by name. "" if
+// there are none.
+template <class Item, class Named>
+std::string said_twice(const std::string& kind, const std::vector<Item>& items, const std::vector<Named>& named) {
+  std::map<std::int64_t, std::size_t> numbers;
+  std::map<std::string, std::size_t> names;
+  const auto told = [&](std::size_t k) {
+    return "'" + named[k].name + "' (number " + std::to_string(items[k].id) + ", at place " + std::to_string(k + 1) +
+           ")";
+  };
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const auto [number, is_new_number] = numbers.emplace(items[k].id, k);
+    const auto [name, is_new_name] = names.emplace(named[k].name, k);
+    if (is_new_number && is_new_name) continue;
+    const std::size_t first = is_new_number ? name->second : number->second;
+    return kind + "s " + told(first) + " and " + told(k) + " have the same " + (is_new_number ? "name" : "number") +
+           "; expected one of its own for each " + kind;
+  }
+  return "";
 }
 
 }  // namespace strut::io

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 
 #include "base/errors.hpp"
@@ -21,27 +20,6 @@ std::string type_of(const ExodusFile::Block& block) {
   if (type.starts_with("HEX") && block.nodes_per_element == 8) return "HEX8";
   if (type.starts_with("TET") && block.nodes_per_element == 4) return "TET4";
   if (type.starts_with("SPHERE") && block.nodes_per_element == 1) return "SPHERE";
-  return "";
-}
-
-// Reports blocks, or node sets, with the same number or name: the library finds them by number, the deck by name. "" if
-// there are none.
-template <class Item, class Named>
-std::string said_twice(const std::string& kind, const std::vector<Item>& items, const std::vector<Named>& named) {
-  std::map<std::int64_t, std::size_t> numbers;
-  std::map<std::string, std::size_t> names;
-  const auto told = [&](std::size_t k) {
-    return "'" + named[k].name + "' (number " + std::to_string(items[k].id) + ", at place " + std::to_string(k + 1) +
-           ")";
-  };
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    const auto [number, is_new_number] = numbers.emplace(items[k].id, k);
-    const auto [name, is_new_name] = names.emplace(named[k].name, k);
-    if (is_new_number && is_new_name) continue;
-    const std::size_t first = is_new_number ? name->second : number->second;
-    return kind + "s " + told(first) + " and " + told(k) + " have the same " + (is_new_number ? "name" : "number") +
-           "; expected one of its own for each " + kind;
-  }
   return "";
 }
 

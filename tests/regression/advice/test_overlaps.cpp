@@ -80,25 +80,92 @@ TEST(Overlaps, AreNotToldWhereCellsGrow) {
   }
 }
 
+// The warnings of a bar of cells of 1 mm that is given twice, the second time shifted and with nodes of its own.
+std::string told_of_two(const Lattice& bar, const Vector& apart, Parts parts = {}) {
+  const RunFolder folder;
+  io::Mesh mesh = bar.mesh();
+  const std::vector<Vector> once = mesh.nodes;
+  std::vector<int>& elements = mesh.blocks[0].nodes;
+  const std::vector<int> of_one = elements;
+  for (const Vector& X : once) mesh.nodes.push_back(X + apart);
+  for (const int node : of_one) elements.push_back(node + static_cast<int>(once.size()));
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+  return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+}
+
+Parts quadratic() {
+  Parts parts;
+  parts.materials = changed(copper(), key("Density", "8930"),
+                            key("Density", "8930") + key("Formulation", "Quadratic Correspondence"));
+  return parts;
+}
+
 // Hexahedra that share no nodes: bonds run through material, so neither is bonded to the other.
 TEST(Overlaps, OfPiecesOfABodyThatAreNotBondedAreTold) {
-  const auto told = [](double apart) {
-    const RunFolder folder;
-    io::Mesh mesh = Lattice{5, 5, 5}.mesh();
-    const std::vector<Vector> once = mesh.nodes;
-    std::vector<int>& elements = mesh.blocks[0].nodes;
-    const std::vector<int> of_one = elements;
-    for (const Vector& X : once) mesh.nodes.push_back(X + Vector::Constant(apart));
-    for (const int node : of_one) elements.push_back(node + static_cast<int>(once.size()));
-    run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
-    Parts parts;
-    parts.materials = changed(copper(), key("Density", "8930"),
-                              key("Density", "8930") + key("Formulation", "Quadratic Correspondence"));
-    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
-  };
+  const auto told = [](double apart) { return told_of_two({5, 5, 5}, Vector::Constant(apart), quadratic()); };
   for (const double apart : {0.5e-3, 1.3e-3})
     EXPECT_NE(told(apart).find("times as much material as fits"), std::string::npos) << apart;
   for (const double apart : {5e-3, 5.1e-3}) EXPECT_EQ(told(apart).find("as much material"), std::string::npos) << apart;
+}
+
+// Where no family is full, its volume does not tell.
+TEST(Overlaps, OfThinBodiesAreTold) {
+  const std::string twice = "share no node: elements that overlap, or are given twice?";
+  for (const Lattice& thin : {Lattice{2, 2, 8}, Lattice{4, 4, 2}})
+    EXPECT_NE(told_of_two(thin, Vector::Constant(0.2e-3)).find(twice), std::string::npos);
+  EXPECT_EQ(told_of_two({2, 2, 8}, {0, 0, 8e-3}).find("share no node"), std::string::npos);
+}
+
+// Nodes at one place that are not merged cut a body whose bonds run through material.
+TEST(Overlaps, AreNotWherePartsLieBesideEachOther) {
+  const std::string cut = "64 points, one of them at", unmerged = "nodes at one place that are not merged?";
+  const std::string told = told_of_two({4, 8, 4}, {0, 0, 4e-3}, quadratic());
+  EXPECT_NE(told.find(cut), std::string::npos) << told;
+  EXPECT_NE(told.find(unmerged), std::string::npos) << told;
+  EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4.2e-3}, quadratic()).find(unmerged), std::string::npos);  // a gap
+  EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4e-3}).find(unmerged), std::string::npos);                 // bonded
+}
+
+std::string with_anything() {
+  return section("Models", section("m", key("Contact Model", "Short Range Force") + key("Spring Constant", "1e11") +
+                                            key("Contact Radius", "1e-3"))) +
+         section("Interactions", section("any", key("Contact Model", "m")));
+}
+
+// Contact never acts between bonded points: of one block, too, and across gaps of less than a quarter of a spacing.
+TEST(Contact, OfBondedPartsOfABlockIsTold) {
+  const std::string bonded = "parts of block bar that share no node are bonded to each other by ";
+  for (const std::string& contact : {contact_of({{"bar", "bar"}}, "1e-3", "1e11"), with_anything()}) {
+    Parts parts;
+    parts.contact = contact;
+    EXPECT_NE(told_of_two({4, 4, 4}, {0, 0, 4.2e-3}, parts).find(bonded), std::string::npos);
+    EXPECT_EQ(told_of_two({4, 4, 4}, {0, 0, 4e-3}, parts).find(bonded), std::string::npos);  // no gap
+    EXPECT_EQ(told_of_two({4, 4, 4}, {0, 0, 6e-3}, parts).find(bonded), std::string::npos);  // no bond
+  }
+}
+
+TEST(Contact, OfBondedBlocksIsToldWhereTheGapIsSmall) {
+  const auto told = [](double gap, bool merged) {
+    const RunFolder folder;
+    io::Mesh mesh = Lattice{4, 4, 8}.mesh();
+    std::vector<int>& low = mesh.blocks[0].nodes;
+    io::Mesh::Block high = mesh.blocks[0];
+    high.name = "high";
+    high.nodes.assign(low.begin() + 8 * 64, low.end());
+    low.resize(8 * 64);
+    const auto nodes = static_cast<int>(mesh.nodes.size());
+    for (int n = 0; n < nodes && !merged; ++n) mesh.nodes.push_back(mesh.nodes[n] + Vector(0, 0, gap));
+    for (int& node : high.nodes) node += merged ? 0 : nodes;
+    mesh.blocks.push_back(high);
+    run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+    Parts parts;
+    parts.contact = with_anything();
+    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world)
+               .warnings.find("are bonded to each other by") != std::string::npos;
+  };
+  EXPECT_TRUE(told(0.24e-3, false));
+  EXPECT_FALSE(told(0, false));
+  EXPECT_FALSE(told(0, true));
 }
 
 TEST(Overlaps, OfSeparateBodiesAreTold) {

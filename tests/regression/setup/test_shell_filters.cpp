@@ -5,6 +5,7 @@
 #include "regression/bodies.hpp"
 #include "run/simulation.hpp"
 #include "setup/families.hpp"
+#include "unit/io/bytes_and_errors.hpp"
 
 namespace strut::regression {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 using Corners = std::vector<std::vector<Vector>>;  // of triangles or quadrilaterals
 
 // A block for the triangles, and one for the quadrilaterals; each element has nodes of its own.
-void write_shells(const std::filesystem::path& file, const Corners& elements) {
+void write_shells(const std::filesystem::path& file, const Corners& elements, std::int64_t dimensions = 3) {
   std::array<std::vector<double>, 3> places;
   std::vector<io::ExodusFile::Block> blocks;
   std::vector<std::vector<std::int64_t>> nodes;
@@ -26,7 +27,7 @@ void write_shells(const std::filesystem::path& file, const Corners& elements) {
       }
     }
     const auto count = static_cast<std::int64_t>(nodes.back().size() / corners);
-    blocks.push_back({.id = static_cast<std::int64_t>(corners),
+    blocks.push_back({.id = corners == 3 ? 70 : 80,
                       .name = "",
                       .type = corners == 3 ? "TRI3" : "quad",
                       .elements = count,
@@ -34,8 +35,8 @@ void write_shells(const std::filesystem::path& file, const Corners& elements) {
                       .attributes = {}});
   }
   io::ExodusFile out = io::ExodusFile::create(file);
-  out.put_sizes("shells",
-                {3, static_cast<std::int64_t>(places[0].size()), blocks[0].elements + blocks[1].elements, 2, 0});
+  out.put_sizes("shells", {dimensions, static_cast<std::int64_t>(places[0].size()),
+                           blocks[0].elements + blocks[1].elements, 2, 0});
   out.put_blocks(blocks);
   out.put_coordinates(places);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -216,6 +217,34 @@ TEST(ShellFilters, OfAWrongFileAreRefused) {
   };
   EXPECT_NE(error("none.g").find("expected a mesh of shells"), std::string::npos);
   EXPECT_NE(error("bar.g").find("expected triangles"), std::string::npos);
+}
+
+// Elements that would cut nothing, or elsewhere, without a word.
+TEST(ShellFilters, OfDamagedMeshesAreRefused) {
+  const RunFolder folder;
+  const auto read_error = [&] { return io::error_of([&] { io::read_shells(folder / "shells.g", folder.world); }); };
+  const auto error = [&](const Corners& elements, std::int64_t dimensions = 3) {
+    run_on_root(folder.world, [&] { write_shells(folder / "shells.g", elements, dimensions); });
+    return read_error();
+  };
+  const Vector a(0, 0, 0), b(1, 0, 0), c(1, 1, 0), d(0, 1, 0), nowhere(std::nan(""), 0, 0);
+  const auto is_told = [&](const std::string& told, const std::string& words) {
+    EXPECT_NE(told.find(words), std::string::npos) << told;
+  };
+  EXPECT_EQ(error(two_walls()), "");
+  run_on_root(folder.world, [&] {
+    std::string bytes = io::bytes_of(folder / "shells.g");
+    bytes.at(bytes.find(std::string{0, 0, 0, 70, 0, 0, 0, 80}) + 7) = 70;
+    std::ofstream(folder / "shells.g", std::ios::binary) << bytes;
+  });
+  is_told(read_error(), "blocks 'block_70' (number 70, at place 1) and 'block_70' (number 70");
+  is_told(error(two_walls(), 2), "has 2 dimensions, expected 3");
+  is_told(error({{a, b, nowhere}}), "node 3: a coordinate is not a finite number");
+  is_told(error({{a, b, c, d}, {a, b, a, b}}), "block 'block_80' element 2: it has no area");
+  is_told(error({{a, b, b}}), "element 1: it has no area");
+  for (const Corners& crossed : {Corners{{a, c, b, d}}, Corners{{a, b, d, c}}})
+    is_told(error(crossed), "element 1: its corners cross");
+  EXPECT_EQ(error({{a, b, c, c}, {a, a, b, c}}), "");  // triangles, as some programs write them
 }
 
 }  // namespace

@@ -60,6 +60,23 @@ TEST_F(CompareTool, BodiesThatStandElsewhereDiffer) {
   EXPECT_EQ(compare(a, b, "--relative 1.1e-6").text.find("before anything moves"), std::string::npos);
 }
 
+// The same points and fields; blocks without points do not count.
+TEST_F(CompareTool, OtherBlocksDiffer) {
+  const auto with_blocks = [this](const std::string& name, const std::vector<int>& blocks,
+                                  const std::vector<std::string>& names) {
+    PointCloud points = cloud();
+    points.blocks = blocks, points.block_names = names;
+    io::ExodusWriter(path(name), Communicator(), points, {{"Damage", 1, false}}).write(0, Columns{{0, 0, 0}});
+    return path(name);
+  };
+  const std::string a = with_blocks("a.e", {0, 0, 1}, {"a", "b"});
+  const testing::Outcome split_elsewhere = compare(a, with_blocks("b.e", {0, 1, 1}, {"a", "b"}));
+  EXPECT_EQ(split_elsewhere.status, 1);
+  expect_text(split_elsewhere, "the first has the blocks (elements) a (2), b (1), the second a (1), b (2)");
+  EXPECT_EQ(compare(a, with_blocks("c.e", {0, 0, 1}, {"b", "a"})).status, 1);
+  EXPECT_EQ(compare(a, with_blocks("d.e", {0, 0, 2}, {"a", "none", "b"})).status, 0);
+}
+
 TEST_F(CompareTool, ADifferenceIsMeasuredAgainstTheQuantityAndLocated) {
   const std::string a = result("a.e");
   const std::string b = result("b.e", 4e-6);

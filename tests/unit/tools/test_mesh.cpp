@@ -301,6 +301,31 @@ TEST_F(MeshTool, WrongConesAreRefused) {
   }
 }
 
+// The earlier mesh stays where the new one does not fit, and so does a file that only has the name of the unfinished
+// one.
+TEST_F(MeshTool, AMeshThatCannotBeWrittenCostsNoOther) {
+  const auto make = [this](const std::string& before, int cells) {
+    const std::string recipe = "shape = box\nspacing = 1\nsize = 9 9 " + std::to_string(cells) + "\n";
+    return run(before + std::string(STRUT_MESH) + " " + write("mesh.recipe", recipe) + " " + path("mesh.g"));
+  };
+  const auto bytes = [this] {
+    std::ifstream file(path("mesh.g"), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  ASSERT_EQ(make("", 1).status, 0);
+  const std::string kept = bytes();
+  EXPECT_EQ(make("ulimit -f 40; ", 60).status, 1);
+  EXPECT_EQ(bytes(), kept);
+  EXPECT_FALSE(std::filesystem::exists(path("mesh.g.part")));
+  write("mesh.g.part", "of the user");
+  EXPECT_NE(make("", 2).text.find("mesh.g.part' is there and is no mesh"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(path("mesh.g.part")));
+  EXPECT_EQ(bytes(), kept);
+  std::filesystem::remove(path("mesh.g.part"));
+  EXPECT_EQ(make("", 2).status, 0);
+  EXPECT_NE(bytes(), kept);
+}
+
 TEST_F(MeshTool, OtherErrorsEndWithStatusOne) {
   const std::string box = "shape = box\nsize = 1 1 1\nspacing = 0.5\n";
   for (const std::string& recipe :

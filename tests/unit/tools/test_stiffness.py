@@ -9,10 +9,11 @@ import xml.etree.ElementTree as tree
 
 from tool_test import InFolder
 
+import netCDF4
 import numpy as np
 from decks import section
 from exodus import write_mesh
-from stiffness_parts import tensors
+from stiffness_parts import faces, tensors
 
 
 def isotropic(young_modulus, ratio):
@@ -130,6 +131,24 @@ class Samples(InFolder):
         # stiffer at the most, and the outer halves of the cells at both ends, which are not strained, softer by 3 of 40.
         self.assertGreater(min(cube), bar * (1 - 3 / n))
         self.assertLess(max(cube), bar / (1 - wide / n))
+
+    def test_elements_are_numbered_by_blocks_in_whatever_order_the_file_holds_them(self):
+        corners = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)], float)
+        nodes = np.concatenate([corners, corners + (0, 0, 1), corners + (0, 0, 2)])
+        bricks = np.arange(24).reshape(-1, 8)
+        write_mesh(self.folder / "a.g", nodes, [("low", "HEX8", bricks[:1], None), ("high", "HEX8", bricks[1:], None)], {})
+        with netCDF4.Dataset(self.folder / "a.g") as file, \
+                netCDF4.Dataset(self.folder / "b.g", "w", format="NETCDF3_64BIT_OFFSET") as turned:
+            for name, dimension in file.dimensions.items():
+                turned.createDimension(name, None if dimension.isunlimited() else len(dimension))
+            for name, variable in reversed(file.variables.items()):
+                copy = turned.createVariable(name, variable.dtype, variable.dimensions)
+                copy.setncatts(variable.__dict__)
+                copy[:] = variable[:]
+        for name in ("a.g", "b.g"):
+            sample = faces.Sample(str(self.folder / name))
+            np.testing.assert_array_equal(sample.numbers, [1, 2, 3])
+            np.testing.assert_array_equal(sample.places[:, 2], [0.5, 1.5, 2.5], err_msg=name)
 
     def test_errors_are_one_line_that_helps(self):
         (self.folder / "a.xml").write_text(deck("a.g", {"block": (117e9, 0.35)}))

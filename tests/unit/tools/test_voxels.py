@@ -1027,6 +1027,37 @@ class Tetrahedra(ToolTest):
                 self.mesh(cell_data=self.groups(key)).write(self.path(name))
                 self.check(self.path(name), ["block_1", "block_2"], "set_7")
 
+    def test_groups_that_would_get_one_name_are_refused(self):
+        def refused(told, numbers, **field_data):
+            data = [np.full(54, numbers[0]), np.full(108, numbers[1]), np.full(18, 7)]
+            self.mesh(cell_data={"gmsh:physical": data, "gmsh:geometrical": data}, field_data={
+                name: np.array(group) for name, group in field_data.items()}).write(self.path("a.msh"), file_format="gmsh22")
+            self.refused("tetrahedra", told, self.path("a.msh"))
+
+        refused("group 'größe' and group 'grüße' would both be 'gr_e'", (1, 2), **{"größe": (1, 3), "grüße": (2, 3)})
+        refused("group 'block_2' and group 2 would both be 'block_2'", (1, 2), **{"block_2": (1, 3)})
+        refused("group 'body' and what has no group would both be 'body'", (1, 0), body=(1, 3))
+        self.works("tetrahedra", self.path("a.msh"), "--block-names", "one", "other")
+        self.mesh(point_sets={"steel 1": np.arange(3), "steel_1": np.arange(4)}).write(self.path("a.inp"))
+        self.refused("tetrahedra", "group 'steel 1' and group 'steel_1' would both be 'steel_1'", self.path("a.inp"))
+
+    def test_a_mesh_that_cannot_be_written_costs_no_other(self):
+        self.mesh().write(self.path("a.vtu"))
+        self.works("tetrahedra", self.path("a.vtu"))
+        with open(self.path("out.g"), "rb") as file:
+            kept = file.read()
+        done = subprocess.run(["bash", "-c", 'ulimit -f 4; "$0" "$@"', os.path.join(ROOT, "tools/tetrahedra"), self.path("a.vtu"),
+                               self.path("out.g")], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("out.g cannot be written", done.stderr)
+        with open(self.path("out.g"), "rb") as file:
+            self.assertEqual(file.read(), kept)
+        self.assertFalse(os.path.exists(self.path("out.g.part")))
+        self.write("out.g.part", "of the user")
+        self.assertEqual(self.run_tool("tetrahedra", self.path("a.vtu"), self.path("out.g")).returncode, 1)
+        with open(self.path("out.g.part")) as file:
+            self.assertEqual(file.read(), "of the user")
+
     def test_med(self):
         tags = np.where(self.left, -1, -2)
         mesh = meshio.Mesh(self.points, [("tetra", self.nodes), ("triangle", self.triangles)],
