@@ -94,9 +94,8 @@ class Studies(InFolder):
                                 cwd=self.folder, env={**os.environ, **environment})
 
     def study(self, *words, **environment):
-        process = self.start(*words, **environment)
-        out, errors = process.communicate(timeout=200)
-        return process.returncode, out, errors
+        done = self.run_tool("study", *words, **environment)
+        return done.returncode, done.stdout, done.stderr
 
     def rows(self):
         with open(self.folder / "out/study.csv", newline="") as file:

@@ -14,6 +14,8 @@ if importlib.util.find_spec("vtkmodules") is None or importlib.util.find_spec("s
 import unittest  # noqa: E402
 
 import numpy as np  # noqa: E402
+import scipy.ndimage  # noqa: E402, F401  with VTK: here rather than in each run of the tool
+import vtkmodules.vtkFiltersCore  # noqa: E402, F401
 
 
 def sphere(path, radius, open_cap=False):

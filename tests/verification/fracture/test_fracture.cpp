@@ -163,7 +163,7 @@ TEST(EnergyOfSeparation, IsWhatBlocksDissipate) {
     advance_stress(body, 0, false, 0, &fracture);
     // All bonds have broken: ξ²/|ξ_z| s; by energy |ξ|/|ξ_z| times some 2 s h.
     const double largest = kind.by_energy ? 10 * s * 1e-3 : 4 * s * kind.horizon * kind.horizon * 1e-3;
-    constexpr int steps = 4000;
+    constexpr int steps = 2000;
     for (int n = 1; n <= steps; ++n) {
       deform(body, fracture,
              [&](const Vector& X) -> Vector { return X + Vector(0, 0, X[2] > 5e-3 ? largest * n / steps : 0); });
@@ -187,7 +187,7 @@ TEST(EnergyOfSeparation, IsWhatBlocksDissipate) {
                                 coefficient_of(kind.stabilization)};
     const double expected = kind.by_energy ? energy_at(kind, s) * separation_by_bond_energy(lattice)
                                            : s * s * energy_of_separation(lattice);
-    // A bond breaks up to a step beyond its limit, by energy two, of steps that are some 2000 to the mean one.
+    // A bond breaks up to a step beyond its limit, by energy two, of steps that are some 1000 to the mean one.
     EXPECT_NEAR(world.sum(sum) / world.sum(area) / expected, 1, 5e-3);
   }
 }
@@ -514,7 +514,8 @@ TEST(Fracture, KeepsTheBalanceWithRandomDamage) {
   std::uniform_real_distribution<double> part(0, 1), number(-1, 1);
   for (const Kind& kind : kinds) {
     SCOPED_TRACE(kind.name);
-    const int patterns = kind.families == FamilyKind::stencil ? 20 : 100;
+    const bool few = kind.families == FamilyKind::stencil || Communicator().size() > 1;
+    const int patterns = few ? 20 : 100;
     double least = 1, most = 0;
     for (int n = 0; n < patterns; ++n) {
       LatticeSpec spec = block_of(kind, 5e-4);
@@ -618,6 +619,8 @@ double taken_by_slow_crack(const Kind& kind) {
 // too. By correspondence the tip opens by motions that no gradient sees: with the springs of blocks that do not break
 // (0.01) the crack takes half of G_c, with those of blocks that do (0.3) 0.9 of it (inputs/fracture).
 TEST(Fracture, ASlowCrackTakesTheFractureEnergy) {
+  if (Communicator().size() > 1)
+    GTEST_SKIP() << "long; what ranks might do differently is seen by invariance.*, to the last bit";
   EXPECT_NEAR(taken_by_slow_crack(kinds[0]), 1.05, 0.05);
   for (const Stabilization& springs :
        {Stabilization(MeanGradientStabilization{0.3}), Stabilization(SillingStabilization{0.3})}) {
@@ -631,6 +634,8 @@ TEST(Fracture, ASlowCrackTakesTheFractureEnergy) {
 // The four places of a cell have no mirror image, so both sides soften alike but for some percent.
 TEST(Fracture, AGradualCrackTakesTheFractureEnergy) {
   const Communicator world;
+  if (world.size() > 1)
+    GTEST_SKIP() << "long; what ranks might do differently is seen by invariance.*, to the last bit";
   SlowCrack crack(cohesive, world);
   const auto length = [&crack] { return 0.5 * (crack.softened_length(-1) + crack.softened_length(1)); };
   crack.grow_until(1.1);

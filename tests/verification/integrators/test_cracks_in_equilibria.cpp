@@ -151,6 +151,7 @@ INSTANTIATE_TEST_SUITE_P(By, InAStrip, ::testing::ValuesIn(kinds), [](const auto
 // the stress follows only a part of the jump of F where bonds break, and 0.3 % of the energy stays locked in; the law
 // in rates is off by the first order in the strain, 1e-3.
 TEST_P(InAStrip, ACrackTakesItsEnergyAndTheRestIsElastic) {
+  if (Communicator().size() > 1) GTEST_SKIP() << "long; on two ranks a crack grows as on one: restarts.parting";
   const bool by_rates = GetParam().formulation == Formulation::correspondence;
   const double locked = by_rates ? 5e-3 : 1e-6, balance = by_rates ? 1e-3 : 1e-4;
   Strip strip(GetParam(), "6e-4*min(2*t, 2 - 2*t)", {.load_steps = 8, .tolerance = {.relative = 1e-5}});
