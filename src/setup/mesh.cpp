@@ -53,7 +53,7 @@ bool needs_cells(const deck::Deck& deck) {
 
 // Collective. Marks the points with these numbers; returns how many of the numbers were found. A mesh may have one of
 // them twice.
-std::int64_t mark_numbers(const std::vector<int>& numbers, std::uint64_t bit, PointCloud& cloud,
+std::int64_t mark_numbers(const std::vector<std::int64_t>& numbers, std::uint64_t bit, PointCloud& cloud,
                           const Communicator& communicator) {
   std::vector<double> found(numbers.size(), 0);  // 1: it was
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -117,7 +117,7 @@ bool is_taken(const deck::NodeSet& set, const PointCloud& cloud, std::size_t set
 // Collective. Checks that every number of a set belongs to a point.
 void add_numbered_set(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud, const Communicator& communicator,
                       deck::Problems& problems) {
-  const std::vector<int>& numbers = *set.numbers;
+  const std::vector<std::int64_t>& numbers = *set.numbers;
   const std::int64_t found = mark_numbers(numbers, bit, cloud, communicator);
   const auto points = communicator.sum(static_cast<std::int64_t>(cloud.size()));
   if (found == static_cast<std::int64_t>(numbers.size())) return;

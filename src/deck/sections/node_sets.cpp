@@ -1,6 +1,7 @@
 #include "deck/sections/node_sets.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
 
 #include "base/numbers.hpp"
@@ -49,12 +50,14 @@ std::optional<Vector> nearest_place(const std::string& text) {
   return numbers && numbers->size() == 3 ? std::optional<Vector>(Vector(numbers->data())) : std::nullopt;
 }
 
-std::optional<std::vector<int>> numbers_in(const std::string& text) {
-  std::vector<int> numbers;
+// Meshes with numbers of 64 bits have some beyond those of an int.
+std::optional<std::vector<std::int64_t>> numbers_in(const std::string& text) {
+  std::vector<std::int64_t> numbers;
   for (const std::string& word : to_words(text)) {
-    const std::optional<int> number = to_integer(word);
-    if (!number || *number < 1) return std::nullopt;
-    numbers.push_back(*number);
+    std::int64_t number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc() || end != word.data() + word.size() || number < 1) return std::nullopt;
+    numbers.push_back(number);
   }
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -87,7 +90,7 @@ void add_numbered_sets(const Values& deck, const fs::path& deck_file, std::vecto
     const auto numbers = numbers_in(text);
     NodeSet set;
     set.name = name;
-    set.numbers = numbers.value_or(std::vector<int>());
+    set.numbers = numbers.value_or(std::vector<std::int64_t>());
     set.nearest = nearest_place(text);
     if (!numbers && !set.nearest) set.file = deck_file.parent_path() / text;
     sets.push_back(set);
@@ -100,7 +103,7 @@ void read_numbers(std::vector<NodeSet>& sets, Problems& problems) {
     std::ifstream file;
     if (fs::is_regular_file(set.file)) file.open(set.file);  // opening a pipe would block
     const auto numbers = fs::is_regular_file(set.file) ? numbers_in(without_comments(file)) : std::nullopt;
-    set.numbers = numbers.value_or(std::vector<int>());
+    set.numbers = numbers.value_or(std::vector<std::int64_t>());
     if (!set.numbers->empty()) continue;
     const std::string text = set.file.filename().string();
     const bool from_zero = text.find_first_not_of("0123456789 \t\n") == std::string::npos;

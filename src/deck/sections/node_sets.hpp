@@ -1,6 +1,7 @@
 // The section Node Sets.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -18,9 +19,9 @@ namespace strut::deck {
 struct NodeSet {
   std::string name;
   Function where;
-  std::optional<std::vector<int>> numbers = {};  // of elements or points, from 1, ascending, each once
-  std::optional<Vector> nearest = {};            // m
-  std::filesystem::path file = {};               // file that they were read from, if any
+  std::optional<std::vector<std::int64_t>> numbers = {};  // of elements or points, from 1, ascending, each once
+  std::optional<Vector> nearest = {};                     // m
+  std::filesystem::path file = {};                        // file that they were read from, if any
 };
 
 Section node_sets_section();

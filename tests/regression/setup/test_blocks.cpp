@@ -78,12 +78,12 @@ TEST(Blocks, OfThinMembersAreToldOfTheirResolution) {
   EXPECT_EQ(told(10, "Quadratic Correspondence", plastic), "");
 }
 
-// A mesh may have a number twice, which is not two numbers.
+// A mesh may have a number twice, which is not two numbers, and some beyond those of an int.
 TEST(NumberedSets, HaveAllTheirNumbersInTheMesh) {
-  const auto problems_of = [](const std::vector<int>& numbers) {
+  const auto problems_of = [](const std::vector<std::int64_t>& numbers) {
     PointCloud cloud;
     cloud.ids = {0, 1, 2};
-    cloud.element_ids = {1, 1, 3};
+    cloud.element_ids = {1, 1, 3000000000};
     cloud.sets = {0, 0, 0};
     deck::NodeSet set;
     set.name = "Node Set 1";
@@ -92,7 +92,7 @@ TEST(NumberedSets, HaveAllTheirNumbersInTheMesh) {
     add_node_sets({set}, cloud, Communicator(), problems);
     return joined(problems.lines());
   };
-  EXPECT_EQ(problems_of({1, 3}), "");
+  EXPECT_EQ(problems_of({1, 3000000000}), "");
   EXPECT_NE(problems_of({1, 2}).find("names 2 points, up to number 2, of which the mesh has 1;"), std::string::npos);
 }
 

@@ -154,8 +154,8 @@ TEST(DeckOfPeridigm, SetsOfPointsByNumber) {
   const Deck deck = with(folder, R"(<ParameterList name="Solver">)",
                          list("Boundary Conditions", sets + condition) + R"(<ParameterList name="Solver">)");
   ASSERT_EQ(deck.node_sets.size(), 2u);
-  EXPECT_EQ(deck.node_sets[0].numbers, (std::vector<int>{1, 4, 7}));
-  EXPECT_EQ(deck.node_sets[1].numbers, (std::vector<int>{2, 3}));
+  EXPECT_EQ(deck.node_sets[0].numbers, (std::vector<std::int64_t>{1, 4, 7}));
+  EXPECT_EQ(deck.node_sets[1].numbers, (std::vector<std::int64_t>{2, 3}));
   EXPECT_EQ(std::get<InitialVelocity>(deck.conditions[0].kind).components, std::vector{0});
   EXPECT_EQ(deck.conditions[1].node_set, "all");
 }
@@ -642,7 +642,7 @@ TEST(DeckOfPeridigm, YamlIsReadAsXml) {
 // PeriLab's lists of points begin with a line that names their column.
 TEST(DeckOfPeriLab, ItsSetsOfPointsAreRead) {
   const DeckFolder folder;
-  folder.write("ns.txt", "header: global_id\n1\n2\n11\n12\n");
+  folder.write("ns.txt", "header: global_id\n1\n2\n11\n3000000000\n");  // more than an int holds
   const std::string conditions =
       list("Boundary Conditions",
            key("Node Set 1", "string", "ns.txt") +
@@ -651,7 +651,7 @@ TEST(DeckOfPeriLab, ItsSetsOfPointsAreRead) {
   const Deck deck = folder.read(
       changed(small_deck, R"(<ParameterList name="Solver">)", conditions + R"(<ParameterList name="Solver">)"));
   ASSERT_EQ(deck.node_sets.size(), 1u);
-  EXPECT_EQ(deck.node_sets[0].numbers, (std::vector{1, 2, 11, 12}));
+  EXPECT_EQ(deck.node_sets[0].numbers, (std::vector<std::int64_t>{1, 2, 11, 3000000000}));
 }
 
 TEST(DeckOfPeridigm, ThoseOfOthersAreNamedInOneLine) {
