@@ -99,6 +99,7 @@ Fracture::Fracture(Body& body, double time) : travel_(body.domain) {
   set_critical_values(body);
   set_crack_lengths(body);
   set_which(body);
+  fitted_ = FittedCriterion(body);
   averaged_ = AveragedCriterion(body);
   energies_ = BondEnergies(body);
   for (const MaterialPoint& point : body.points) whole_springs_.push_back(point.stabilization);
@@ -374,7 +375,7 @@ void Fracture::count_springs(Body& body) {
 double Fracture::bytes() const {
   return static_cast<double>(limits_.size() * (sizeof(Vector) + 2 * sizeof(double)) + 2 * due_.size() * sizeof(double) +
                              whole_volume_.size() * (3 * sizeof(double) + sizeof(std::vector<int>))) +
-         energies_.bytes() + averaged_.bytes() + travel_.bytes();
+         energies_.bytes() + fitted_.bytes() + averaged_.bytes() + travel_.bytes();
 }
 
 std::optional<Fracture> fracture_of(Body& body, double time) {

@@ -21,6 +21,7 @@
 #include "base/archive.hpp"
 #include "fracture/averaged_criterion.hpp"
 #include "fracture/bond_energies.hpp"
+#include "fracture/fitted_criterion.hpp"
 #include "fracture/travel.hpp"
 #include "fracture/work_balance.hpp"
 #include "mechanics/bond_breaking.hpp"
@@ -33,8 +34,13 @@ class Fracture : public BondBreaking {
   // at this time, s.
   explicit Fracture(Body& body, double time = 0);
 
-  // Collective. Call it at the start of a step.
-  void average_criteria(Body& body) { averaged_.average(body); }
+  // Call it before the stress update of a step, and of an equilibrium's load step.
+  void start_criteria(const Body& body) { fitted_.start(body); }
+  // Collective. After it.
+  void finish_criteria(Body& body) {
+    fitted_.finish(body);
+    averaged_.average(body);
+  }
   // Collective. Call it before owned points move over a step of dt (s) with these velocities (m/s), and periodic sides
   // by more `stretch` along x, y, z. Otherwise no bond breaks in the stress update that follows.
   void start_step(const Body& body, std::span<const Vector> velocities, double dt,
@@ -93,6 +99,7 @@ class Fracture : public BondBreaking {
   std::vector<double> limits_;  // (1 + s_c)² of owned points and ghosts; infinite without
   bool by_time_ = false;        // the deck's limits change with time
   BondEnergies energies_;       // of bonds in blocks with a critical bond energy
+  FittedCriterion fitted_;
   AveragedCriterion averaged_;
   bool is_looked_at_ = false;                   // a bond may break in this step
   std::vector<Vector> start_;                   // positions of owned points and ghosts at the start of such a step, m

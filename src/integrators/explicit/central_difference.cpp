@@ -111,7 +111,7 @@ double CentralDifference::energy_of_half_step(const std::vector<Vector>& inner) 
 void CentralDifference::advance_position(bool with_diagnostics) {
   update_rigid_motion(body_);
   if (fracture_) {
-    fracture_->average_criteria(body_);
+    fracture_->start_criteria(body_);
     const Domain& domain = body_.domain;
     fracture_->start_step(body_, body_.velocity, dt(),
                           stretch_at(domain.periods, length_.next_time()) - domain.halo.stretch());
@@ -119,6 +119,7 @@ void CentralDifference::advance_position(bool with_diagnostics) {
   const StepReport between = substeps();
   drift_to_next_time();
   StepReport report = advance_stress(body_, dt(), with_diagnostics, time_, breaking());
+  if (fracture_) fracture_->finish_criteria(body_);
   take_worse(between.failure, report.failure);
   if (length_.levels_due()) reassign_levels(report, pushed_now());
   sum_all_forces(with_diagnostics);

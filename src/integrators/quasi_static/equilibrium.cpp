@@ -95,6 +95,7 @@ void Equilibrium::begin(double t, double dt) {
   stretch_sides(t + dt);
   constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
   tools_.begin(body_, t, dt);
+  if (fracture_) fracture_->start_criteria(body_);
   expansion_scale_ = body_.heated.empty() ? 0 : force_of_expansion();
   check_values();
 }
@@ -257,7 +258,7 @@ void Equilibrium::commit() {
   outer_before_ = outer_;
   mirror_forces_before_ = mirror_forces_;
   forces_before_ = forces_;
-  if (fracture_) fracture_->average_criteria(body_);
+  if (fracture_) fracture_->finish_criteria(body_);
   begin_flow_of_cells();
 }
 
