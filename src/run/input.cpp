@@ -41,8 +41,8 @@ void check_files(const deck::Deck& deck, deck::Problems& problems) {
   if (!why.empty() && !problems.about("Restart > Filename")) problems.add("Restart > Filename", why);
 }
 
-// A run of two solvers that ended early left no checkpoint: in a chain of jobs each one would come no further, and would
-// replace the files of the one before.
+// A run of two solvers that ended early left no checkpoint: in a chain of jobs each one would come no further, and
+// would replace the files of the one before.
 void check_two_solvers(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
   if (!deck.next_solver || is_over(deck, communicator)) return;
   const auto is_there = [&](const std::filesystem::path& file) {

@@ -10,11 +10,12 @@ namespace {
 
 // ---- Laws: the keys of each, and how it is made from them. A new law is one entry.
 
-const RealKey radius({.name = "Contact Radius",
-                      .unit = "m",
-                      .range = positive,
-                      .meaning = "r_c: points closer than this repel each other, at most the initial distance of a pair, "
-                                 "within a body 0.9 of it. A good choice is one spacing."});
+const RealKey radius(
+    {.name = "Contact Radius",
+     .unit = "m",
+     .range = positive,
+     .meaning = "r_c: points closer than this repel each other, at most the initial distance of a pair, "
+                "within a body 0.9 of it. A good choice is one spacing."});
 
 const RealKey friction(
     {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb friction."});

@@ -142,8 +142,8 @@ TEST(TwoSolvers, ErrorsOfTheStepsComeBeforeTheEquilibria) {
   }
 }
 
-// A result that ends between the final times of both solvers is not that of a completed run: --continue does not replace
-// it, since there is no checkpoint to go on from.
+// A result that ends between the final times of both solvers is not that of a completed run: --continue does not
+// replace it, since there is no checkpoint to go on from.
 TEST(TwoSolvers, RunThatEndsInTheStepsIsNotOver) {
   Parts parts;
   parts.conditions = held;
