@@ -61,13 +61,13 @@ struct PointFields {
   FieldRef<Deduplicated<Vector>> first_moment = fields.add<Deduplicated<Vector>>(
       At::point, {{.name = "first_moment", .unit = "m⁴", .meaning = "Σ ω V ξ", .width = 3}});
   // Allocated only if bonds may break (fracture/fracture.hpp).
-  PointField<double> damage = fields.of_points<double>(
-      {.name = "damage",
-       .unit = "1",
-       .meaning = "1 − volume of the points still bonded to this one / of all at first",
-       .kept = true,
-       .variable = "Damage"},
-      When::if_used);
+  PointField<double> damage =
+      fields.of_points<double>({.name = "damage",
+                                .unit = "1",
+                                .meaning = "1 − volume of the points still bonded to this one / of all at first",
+                                .kept = true,
+                                .variable = "Damage"},
+                               When::if_used);
   PointField<double> fracture_energy = fields.of_points<double>(
       {.name = "fracture_energy", .unit = "J", .meaning = "dissipated by its bonds that broke", .kept = true},
       When::if_used);
