@@ -1,5 +1,7 @@
 #include "conditions/body_force.hpp"
 
+#include "mechanics/body.hpp"
+
 namespace strut {
 
 namespace {
