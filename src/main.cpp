@@ -57,7 +57,8 @@ bool reader_has_gone() {
   return poll(&out, 1, 0) > 0 && (out.revents & POLLERR) != 0;
 }
 
-// What a command prints is all that there is of it; a reader that has gone, as `head` does, has what it wants.
+// Throws if the output of a command cannot be written. A reader that closes the pipe early, as `head` does, is no
+// error.
 int printed(const strut::Communicator& world) {
   if (world.rank() == 0 && !(std::cout << std::flush) && !reader_has_gone()) {
     throw strut::Error("standard output cannot be written, or not all of it (a full disk?)");

@@ -191,9 +191,10 @@ std::string surfaces_at_seams(const Situation& situation) {
   }
   if (pairs.empty()) return "";
   const std::vector<int> blocks = blocks_of(domain);
+  const MeshNodes nodes(domain);
   std::ostringstream text;
   for (const auto& [a, b] : pairs) {
-    if (bonds_between(domain, blocks, MeshNodes(domain), a, b).count == 0) continue;
+    if (bonds_between(domain, blocks, nodes, a, b).count == 0) continue;
     text << "WARNING: blocks " << domain.cloud.block_names[a] << " and " << domain.cloud.block_names[b]
          << " are bonded to each other, but each has a surface of its own, and contact by 'Surface' is softer along "
             "their seam (half of the pressure, to two spacings from it); expected one block of the mesh where this "

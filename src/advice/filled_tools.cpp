@@ -9,7 +9,7 @@ namespace strut {
 
 namespace {
 
-// Of a spacing.
+// Depths that are told, as fractions of a spacing: of centers, of cells.
 constexpr double least_depth = 0.01, least_cut = 0.02;
 
 // True if the cell of point i is a whole cube of a lattice: the reach of any other is an estimate.

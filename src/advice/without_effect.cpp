@@ -47,7 +47,7 @@ bool may_part(const Ball& crack, const Domain& domain, int i) {
   return std::abs(apart.dot(crack.normal)) <= horizon && apart.norm() <= crack.radius + horizon;
 }
 
-// What a deck says of its crack k: the place or the file.
+// The name of crack k in messages: its position, or the file that the deck names.
 std::string name_of(std::size_t k, std::size_t drawn, const Ball& ball, const deck::Discretization& discretization) {
   return k < drawn ? "the crack around " + place_text(ball.center)
                    : "the crack of " + discretization.shells[k - drawn].filename().string();

@@ -22,7 +22,7 @@ enum class Kind {
   expression  // a number, or an expression in x, y, z, t
 };
 
-// Of the types of numbers that Teuchos knows, a kind takes those up to one.
+// The largest of the types of numbers of Teuchos that a kind accepts; it accepts the smaller ones, too.
 enum class Numbers { none, integer, real, several };
 
 struct KindFacts {

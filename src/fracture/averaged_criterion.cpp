@@ -5,9 +5,9 @@
 #include <sstream>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include "base/errors.hpp"
+#include "fracture/state_column.hpp"
 #include "topology/parallel_for.hpp"
 
 namespace strut {
@@ -20,12 +20,8 @@ constexpr double due_growth = 0.01;
 constexpr double most_passes = 1000;  // a ball of some 50 spacings
 
 int number_of_indicator(const MaterialBlock& block) {
-  const auto number = []<class L>(const L&) {
-    const auto& names = L::state_names;
-    const auto at = std::find(names.begin(), names.end(), "Failure_Indicator");
-    return at == names.end() ? -1 : static_cast<int>(at - names.begin());
-  };
-  return block.material.damage && block.material.damage->ductility ? std::visit(number, block.material.law) : -1;
+  const bool fails = block.material.damage && block.material.damage->ductility;
+  return fails ? state_column(block, "Failure_Indicator") : -1;
 }
 
 double variance_of_ball(const MaterialBlock& block) {

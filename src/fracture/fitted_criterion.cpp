@@ -1,10 +1,9 @@
 #include "fracture/fitted_criterion.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
-#include <string_view>
 #include <variant>
 
+#include "fracture/state_column.hpp"
 #include "topology/parallel_for.hpp"
 
 namespace strut {
@@ -13,14 +12,6 @@ namespace {
 
 // Added to the moments of a family about its center, in spacings squared: a family in a plane has no slope across it.
 constexpr double least_moment = 0.05;
-
-int column_of(const MaterialBlock& block, std::string_view name) {
-  const auto column = [&]<class L>(const L&) {
-    const auto at = std::find(L::state_names.begin(), L::state_names.end(), name);
-    return at == L::state_names.end() ? -1 : static_cast<int>(at - L::state_names.begin());
-  };
-  return std::visit(column, block.material.law);
-}
 
 bool is_read(const MaterialBlock& block) {
   const auto& damage = block.material.damage;
@@ -45,8 +36,8 @@ FittedCriterion::FittedCriterion(Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
     if (!is_read(block)) continue;
-    blocks_.push_back({b, column_of(block, "Failure_Indicator"), column_of(block, "Equivalent_Plastic_Strain"),
-                       column_of(block, "Equivalent_Plastic_Strain_Rate"), column_of(block, "Temperature")});
+    blocks_.push_back({b, state_column(block, "Failure_Indicator"), state_column(block, "Equivalent_Plastic_Strain"),
+                       state_column(block, "Equivalent_Plastic_Strain_Rate"), state_column(block, "Temperature")});
   }
   if (blocks_.empty()) return;
   takes_part_.assign(body.domain.sites.size(), 0);

@@ -85,10 +85,11 @@ double mark_of_cells(const Body& body) {
   });
 }
 
-// Those of a start can be any: its deck has node sets of its own, and may need shapes that the other one did not.
+// Start From accepts any node sets and shapes: its deck has its own node sets, and may need shapes that the first did
+// not.
 enum class Sets { same, any };
 
-// What no column of the checkpoint shows: a number of it, and what the user reads if it is another one there.
+// A check sum of data that the checkpoint has no column for, and the message if the checkpoint has another sum.
 struct Mark {
   const char* name;
   double own;

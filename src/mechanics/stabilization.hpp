@@ -60,7 +60,7 @@ struct NoStabilization {
   double coefficient = 0;
 };
 
-// Those that a block can have: one of them.
+// The stabilization of a block.
 using Stabilization = std::variant<MeanGradientStabilization, SillingStabilization, NoStabilization>;
 
 inline double coefficient_of(const Stabilization& stabilization) {

@@ -35,7 +35,7 @@ class UserLibraries {
  public:
   UserLibraries(const deck::Deck& deck, const Communicator& communicator);  // collective; reads them
   void serialize(Archive& archive);
-  // Those that are not the files of the checkpoint, by their keys; "" if there are none.
+  // Names the keys whose libraries differ from those of the checkpoint; "" if none does.
   std::string changed() const;
 
  private:

@@ -9,6 +9,7 @@
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "setup/blocks.hpp"
 #include "setup/dropped.hpp"
+#include "setup/found_points.hpp"
 #include "topology/partition.hpp"
 
 namespace strut {
@@ -39,7 +40,7 @@ std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain,
     const bool is_cut =
         std::ranges::any_of(cracks, [&](const Crack& crack) { return !points_on(crack, {i}, domain).empty(); });
     text = text_of(word(domain.cloud.at), " ", domain.cloud.element_ids[i], " of block ",
-                   domain.cloud.block_names[domain.cloud.blocks[i]], " at (", X[0], ", ", X[1], ", ", X[2], ") m has ",
+                   domain.cloud.block_names[domain.cloud.blocks[i]], " at ", place_text(X), " has ",
                    domain.families.size(i), " neighbors: ", reason,
                    is_cut ? "; a crack (Bond Filters) runs through it and cuts its bonds to both sides: expected one "
                             "between layers of points. Move the crack"
