@@ -119,7 +119,7 @@ void compare_reference(Archive& archive, const Body& body, Sets which) {
   bool same = true;
   for (int i = 0; i < body.owned(); ++i) same = same && (kept[i] == body.domain.sites[i].reference).all();
   std::vector<std::string> others;
-  if (body.domain.communicator.max(same ? 0.0 : 1.0) > 0) others.push_back("at other places, or of other volumes");
+  if (body.domain.communicator.max(same ? 0.0 : 1.0) > 0) others.emplace_back("at other places, or of other volumes");
   for (const Mark& mark : marks) {
     if (mark.differs()) others.push_back(mark.text);
   }

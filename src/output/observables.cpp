@@ -130,7 +130,8 @@ std::vector<Observable> stresses() {
       observable("Cauchy_Stress", "Pa", "σ", cauchy),
       observable("Von_Mises_Stress", "Pa", "√(3/2 s:s), s the deviator of σ",
                  [](const Body& b, int i) { return von_mises(b.points[i].stress); }),
-      observable("Pressure", "Pa", "−tr σ/3", [](const Body& b, int i) { return -trace(b.points[i].stress) / 3; }),
+      observable("Pressure", "Pa", "−tr σ/3. In quadratic cells that flow it alternates: average it over neighbors",
+                 [](const Body& b, int i) { return -trace(b.points[i].stress) / 3; }),
   };
 }
 

@@ -22,7 +22,7 @@ def parser_of(about, kind=Parser):
     """The options of tools/curve, which a study may also set in a line."""
     parser = kind(prog="tools/curve", description=about)
     add = parser.add_argument
-    add("deck", help="the deck of the run (XML), or its history (.csv)")
+    add("deck", help="the deck of the run, or its history (.csv)")
     add("out", nargs="?", default=".", help="folder to write to (default: this one)")
     add("--results", default=".", metavar="FOLDER", help="that the run was started from (default: this one)")
     add("--force", metavar="COLUMN", help="of the history, N (default: its first reaction or contact force along the axis)")

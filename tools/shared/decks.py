@@ -1,4 +1,4 @@
-"""A deck (XML) and a mesh's recipe, read and changed key by key."""
+"""A deck (XML or YAML) and a mesh's recipe, read and changed key by key."""
 import functools
 import math
 import os
@@ -20,13 +20,23 @@ def text_of(path):
         fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
 
 
+def in_xml(path, text):
+    """The text of a deck in XML; one in YAML is turned into it by strut-evaluate."""
+    if not text.strip() or text.lstrip().startswith("<"):
+        return text
+    done = subprocess.run([program("strut-evaluate"), "--xml"], input=text, capture_output=True, text=True)
+    if done.returncode != 0:
+        fail(f"{path} is not a deck: {'; '.join(done.stderr.split(chr(10))).strip('; ')}")
+    return done.stdout
+
+
 class Deck:
     def __init__(self, path):
-        self.path, self.text = path, text_of(path)
+        self.path, self.text = path, in_xml(path, text_of(path))
         try:
             self.root = tree.fromstring(self.text)
         except tree.ParseError as error:
-            fail(f"{path} is not a deck (XML): {error}")
+            fail(f"{path} is not a deck: {error}")
         here = os.path.dirname(os.path.abspath(path))  # value_at() is asked elsewhere
         read_files.rename_tables(self.root, lambda name: os.path.join(here, name))
 
@@ -71,7 +81,10 @@ class Deck:
     def with_value(self, path, value):
         """The same, with another value of the key "Section > … > Key"."""
         deck = Deck.of(self.path, self.text)
-        deck.key(path).set("value", value)
+        key = deck.key(path)
+        key.set("value", value)
+        if key.get("type") == "int":  # YAML has 1 where another value is 0.5
+            key.set("type", "string")
         deck.text = tree.tostring(deck.root, "unicode")
         return deck
 

@@ -45,6 +45,20 @@ DECK = """<ParameterList>
       <Parameter name="Layers" type="int" value="1"/></ParameterList></ParameterList></ParameterList>
 </ParameterList>
 """
+IN_YAML = """# the same
+Discretization: {Type: Exodus, Input Mesh File: bar.g}
+Materials:
+  copper: {Material Model: Elastic Correspondence, Density: 8930, Young's Modulus: 117e9, Poisson's Ratio: 0.35}
+Blocks:
+  bar: {Block Names: all, Material: copper, Horizon Factor: 1.75}
+Boundary Conditions:
+  flight: {Type: Initial Velocity, Coordinate: z, Value: "-1"}
+Solver:
+  Final Time: 1
+History:
+  Filename: bar.csv
+  Variables: {Mean_Displacement_Z: true, Mean_Velocity_Z: yes}
+"""
 RECIPE = "name = bar\nshape = box\nsize = 4e-3 4e-3 8e-3\nspacing = 1e-3  # of a cube\n"
 STUDY = """
 deck = bar.xml     # beside this file
@@ -123,6 +137,21 @@ class Studies(InFolder):
         (self.folder / "bar.study").write_text(STUDY.replace("10 20", "10 40"))
         self.assertIn("speed=40,spacing=1e-3\n", self.study("bar.study", "out", "--list")[1])
         self.assertIn("speed=10,spacing=1e-3: done\n", self.study("bar.study", "out", "--list")[1])
+
+    @unittest.skipUnless("STRUT" in os.environ, "STRUT names no program")
+    def test_a_deck_in_yaml(self):
+        (self.folder / "bar.yaml").write_text(IN_YAML)
+        (self.folder / "bar.study").write_text(STUDY.replace("bar.xml ", "bar.yaml").replace("10 20", "10").replace("1e-3 2e-3", "2e-3"))
+        status, out, errors = self.study("bar.study", "out")
+        self.assertEqual((status, errors), (0, ""), out)
+        self.assertAlmostEqual(float(self.rows()[0]["Mean_Displacement_Z"]), -1e-5, delta=1e-13)
+        deck = Deck(str(self.folder / "bar.yaml"))
+        self.assertEqual([deck.get("Blocks", "bar", "Horizon Factor"), deck.get("Materials", "copper", "Young's Modulus")],
+                         ["1.75", "117000000000"])
+        (self.folder / "bar.yaml").write_text("Solver:\n\tFinal Time: 1\n")
+        status, _, errors = self.study("bar.study", "other")
+        self.assertEqual(status, 1)
+        self.assertIn("bar.yaml is not a deck: line 2: indented by a tab; expected spaces, as YAML has them", errors)
 
     def test_a_study_that_was_stopped_goes_on_and_a_run_that_fails_does_not_stop_it(self):
         program = self.folder / "slow"
