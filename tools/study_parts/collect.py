@@ -10,6 +10,8 @@ import numpy as np
 from decks import Deck, value_of
 from strut_tools import ROOT, fail, history_of, number, write_table
 
+from study_parts import bands
+
 FACTS = {"points": r"^([\d,]+) points,", "steps": r"^(\d+) (?:load )?steps,", "seconds": r"^whole run +([\d.]+)",
          "balance_error": r"balance error ([\d.e+-]+)"}
 
@@ -80,9 +82,12 @@ def table(rows, plots, study):
     return "\n".join(f"| {line} |" for line in lines)
 
 
-def figure(path, study, rows, units):
+def figure(path, study, cases, rows, units):
     plots = study.plots
-    drawing, panels = plt.subplots(1, len(plots), figsize=(5.6 * len(plots), 4.3), layout="constrained", squeeze=False)
+    curves = bands.curves_of(cases, rows, study.band) if study.band else {}
+    if not (count := len(plots) + len(curves)):
+        return
+    drawing, panels = plt.subplots(1, count, figsize=(5.6 * count, 4.3), layout="constrained", squeeze=False)
     for axes, plot in zip(panels[0], plots):
         for name in (plot.x, plot.y, plot.by):
             if name and not any(name in row for row in rows):
@@ -90,6 +95,9 @@ def figure(path, study, rows, units):
         draw(axes, plot, rows)
         for axis, name in ((axes.set_xlabel, plot.x), (axes.set_ylabel, plot.y)):
             axis(name.replace("_", " ") + (f", {units[name]}" if name in units else ""))
+    for axes, column in zip(panels[0][len(plots):], curves):
+        bands.draw(axes, column, curves[column], study.band)
+    for axes in panels[0]:
         axes.grid(alpha=0.3)
         if axes.get_legend_handles_labels()[0]:
             axes.legend(frameon=False)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from decks import Deck, text_of, value_of
 from strut_tools import check_input, fail, nearest, number
 
-KEYS = ("deck", "vary NAME", "set KEY", "set recipe LINE", "curve", "collect", "plot")
+KEYS = ("deck", "vary NAME", "set KEY", "set recipe LINE", "curve", "collect", "plot", "band")
 
 
 @dataclass
@@ -27,6 +27,7 @@ class Study:
     curve: str | None = None                  # options of tools/curve; None: there is no curve
     collect: list = field(default_factory=list)
     plots: list = field(default_factory=list)
+    band: str | None = None                   # what varies and has a mean curve and a band for each of its values
 
     def cases(self):
         """A {name: value} for each case: all combinations of the lines `vary`."""
@@ -53,6 +54,10 @@ def read(path, converge=None):
             fail(f"{path}: '{', '.join(names)}' varies, and no line 'set' has {{{names[0]}}}: all runs would be the same")
     if converge and study.curve is None and not study.collect:
         fail(f"{path}: expected a line 'curve =' or 'collect = …': nothing is read off the runs that could converge")
+    if study.band:
+        study.expect(study.band, [name for names, _ in study.vary for name in names], "that varies")
+        if study.curve is None:
+            fail(f"{path}: 'band = {study.band}' needs a line 'curve ='")
     study.deck = os.path.join(os.path.dirname(path), study.deck)
     return study
 
@@ -74,7 +79,7 @@ def take(study, where, key, value):
         if not match:
             fail(f"{where}: expected 'plot = X Y [by NAME] [beside EXPRESSION]', found '{value}'")
         study.plots.append(Plot(*match.groups()))
-    elif key in ("deck", "curve"):
+    elif key in ("deck", "curve", "band"):
         if getattr(study, key):
             fail(f"{where}: '{key}' again: expected one value")
         setattr(study, key, value)

@@ -10,12 +10,15 @@ import signal
 import subprocess
 import time
 import unittest
+from types import SimpleNamespace
+
+import matplotlib.pyplot
 
 from tool_test import TOOLS, InFolder
 
 from decks import Deck, Recipe
 from strut_tools import history_of
-from study_parts import convergence, grids, names, plan
+from study_parts import bands, convergence, grids, names, plan
 
 DECK = """<ParameterList>
   <ParameterList name="Discretization"><Parameter name="Type" type="string" value="Exodus"/>
@@ -152,6 +155,28 @@ class Studies(InFolder):
         status, _, errors = self.study("bar.study", "other")
         self.assertEqual(status, 1)
         self.assertIn("bar.yaml is not a deck: line 2: indented by a tab; expected spaces, as YAML has them", errors)
+
+    def test_the_band_of_curves(self):
+        cases = []
+        for speed, factor, last in (("10", 1, 0.3), ("10", 3, 0.4), ("20", 5, 0.4)):
+            folder = self.folder / f"run{factor}"
+            folder.mkdir()
+            rows = "".join(f"0,{last * n / 4},{factor * 1e6 * last * n / 4},0\n" for n in range(5))
+            (folder / "bar-curve.csv").write_text(f"Time (s),Strain (1),Stress (Pa) of F,Energy (J/m3)\n{rows}")
+            cases.append(SimpleNamespace(folder=str(folder), deck="bar.xml", values={"speed": speed}))
+        curves = bands.curves_of(cases, 3 * [{"error": ""}], "speed")
+        self.assertEqual({c: {v: len(runs) for v, runs in of.items()} for c, of in curves.items()},
+                         {"Stress (Pa) of F": {"10": 2, "20": 1}})
+        drawing, axes = matplotlib.pyplot.subplots()
+        bands.draw(axes, "Stress (Pa) of F", curves["Stress (Pa) of F"], "speed")
+        strain, stress = axes.lines[0].get_data()
+        self.assertAlmostEqual(strain[-1], 0.3)  # as far as both runs go
+        self.assertAlmostEqual(stress[-1], 2 * 0.3)
+        self.assertAlmostEqual(axes.collections[0].get_paths()[0].get_extents().ymax, 3 * 0.3)
+        self.assertEqual(axes.lines[1].get_label(), "speed 20, 1 run")
+        matplotlib.pyplot.close(drawing)
+        (self.folder / "bar.study").write_text(STUDY + "band = speeed\ncurve =\n")
+        self.assertIn("there is no 'speeed' that varies (did you mean 'speed'?)", self.study("bar.study", "out")[2])
 
     def test_a_study_that_was_stopped_goes_on_and_a_run_that_fails_does_not_stop_it(self):
         program = self.folder / "slow"
