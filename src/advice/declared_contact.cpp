@@ -92,12 +92,14 @@ constexpr double gap_of_points = 1.25, gap_of_elements = 1.02;
 double length(const Domain& domain, int i, int j) { return (domain.reference(j) - domain.reference(i)).norm(); }
 
 // For owned points and ghosts the part of the mesh that elements with a common node make, or those that touch without.
-std::vector<std::int64_t> parts_of(const Domain& domain, const MeshNodes& nodes) {
+// Both ends of a bond must find the same: the distance is compared with the mean of their spacings.
+std::vector<std::int64_t> parts_of(const Domain& domain, const std::vector<int>& blocks, const MeshNodes& nodes) {
   std::vector<std::int64_t> parts(domain.sites.size(), 0);
   if (!nodes.any()) return parts;
   parts = piece_ids(domain, [&](int i, int j) {
     return nodes.may_join(i, j) ||
-           length(domain, i, j) <= gap_of_elements * domain.blocks[domain.cloud.blocks[i]].spacing;
+           length(domain, i, j) <=
+               0.5 * gap_of_elements * (domain.blocks[blocks[i]].spacing + domain.blocks[blocks[j]].spacing);
   });
   parts.resize(domain.sites.size());
   domain.halo.exchange(parts);
@@ -138,7 +140,7 @@ std::string bonded_contacts(const Situation& situation) {
   const std::vector<std::string>& names = domain.cloud.block_names;
   const std::vector<int> blocks = blocks_of(domain);
   const MeshNodes nodes(domain);
-  const std::vector<std::int64_t> parts = parts_of(domain, nodes);
+  const std::vector<std::int64_t> parts = parts_of(domain, blocks, nodes);
   std::ostringstream text;
   for (int a = 0; a < static_cast<int>(names.size()); ++a) {
     for (int b = a; b < static_cast<int>(names.size()); ++b) {

@@ -121,14 +121,23 @@ std::vector<double> times_of(const Situation& situation, const std::vector<Held>
 // For each tool and condition: the time of the first contact, and the points met.
 using Meetings = std::map<std::pair<int, int>, std::pair<double, std::set<int>>>;
 
+// The travel of a tool at a time, m. The points decide how far a force moves a tool; here it does so by the least that
+// counts, which shows if it presses on points that it touches.
+Vector pressed_offset(const RigidTool& tool, double time, double spacing) {
+  Vector offset = tool.offset(time), force = Vector::Zero();
+  for (int c = 0; tool.free && c < 3; ++c) {
+    if (tool.free->force[c]) force[c] = (*tool.free->force[c])(0, 0, 0, time);
+  }
+  return offset + 2 * deep * spacing * force.stableNormalized();
+}
+
 void look(const RigidTool& tool, int n, const std::vector<Held>& held, const Body& body,
           const std::vector<Vector>& ways, double time, Meetings& met) {
-  const Vector offset = tool.offset(time);
   for (const Held& one : held) {
     for (const int i : one.points) {
       if (!std::binary_search(tool.points.begin(), tool.points.end(), i)) continue;
       const auto [X, is_face] = place_of(one, i, body.domain);
-      const Vector place = X + ways[i] - offset;
+      const Vector place = X + ways[i] - pressed_offset(tool, time, body.domain.cloud.spacings[i]);
       const auto met_by = [&](const auto& shape) {
         return is_face ? surface(shape, place) : tool.met_by(i, shape, place);
       };
@@ -184,6 +193,30 @@ std::string held_stretches(const Situation& situation) {
   return text;
 }
 
+namespace {
+
+// An end drags with the impedance of the material. Inertia that is s times as large reflects (√s − 1)²/(√s + 1)² of the
+// energy of a wave.
+void tell_scaled_ends(const Situation& situation, std::ostringstream& text) {
+  constexpr double tells = 1.5;  // s, 1 % of the energy
+  const Body& body = situation.scene.body;
+  if (body.mass_scale.empty()) return;
+  situation.scene.conditions.visit([&]<class One>(const One& one) {
+    if constexpr (std::is_same_v<One, NonReflectingEnd>) {
+      double most = 1;
+      for (const auto& drag : one.drags) most = std::max(most, body.mass_scale[drag.point]);
+      most = body.domain.communicator.max(most);
+      if (most <= tells) return;
+      const double back = std::pow((std::sqrt(most) - 1) / (std::sqrt(most) + 1), 2);
+      text << "WARNING: Mass Scaling gives points of a non-reflecting end up to " << most
+           << " times their inertia: where it does so around them, too, the end reflects " << 100 * back
+           << " % of a wave's energy; expected a smaller Mass Scaling dt\n";
+    }
+  });
+}
+
+}  // namespace
+
 std::string held_ends(const Situation& situation) {
   const deck::Deck& deck = situation.deck;
   const Body& body = situation.scene.body;
@@ -192,6 +225,8 @@ std::string held_ends(const Situation& situation) {
   for (const auto& [conditions, points] : pairs) lists.push_back(points);
   const std::vector<FoundPoints> found = found_points(body, lists);
   std::ostringstream text;
+  text.precision(3);
+  tell_scaled_ends(situation, text);
   auto common = found.begin();
   for (const auto& [conditions, points] : pairs) {
     const FoundPoints& one = *common++;

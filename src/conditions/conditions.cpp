@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 
 #include "base/errors.hpp"
 
@@ -11,6 +12,14 @@ namespace {
 
 Stage stage_of(const Condition& condition) {
   return std::visit([]<class Type>(const Type&) { return Type::stage; }, condition);
+}
+
+bool any_friction(const Conditions& conditions) {
+  bool any = false;
+  conditions.visit([&]<class Type>(const Type& one) {
+    if constexpr (std::is_same_v<Type, RigidTool>) any = any || one.friction > 0;
+  });
+  return any;
 }
 
 void take_turn(ChangesVelocities auto& condition, VelocityUpdate& update) {
@@ -63,6 +72,7 @@ void add_work_of_forces(const Conditions& conditions, double t, double impulse_t
 void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body, ImpulseWork& work,
                        ReactionImpulses& impulses) {
   VelocityUpdate update{t, steps, body, impulses};
+  if (any_friction(conditions)) update.held.assign(body.owned(), 0);
   conditions.visit([&]<class Type>(Type& one) {
     if constexpr (Type::stage != Stage::forces) take_turn(one, update);
   });

@@ -39,6 +39,7 @@ void PrescribedMotion::change_velocities(VelocityUpdate& update) const {
     const double change = imposed - v;
     v = imposed;
     update.record(i, change * Vector::Unit(c));
+    if (!update.held.empty()) update.held[i] |= 1 << c;
   });
 }
 

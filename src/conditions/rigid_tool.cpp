@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -127,8 +128,9 @@ void choose_face(const Box& box, const Vector& place, const Vector& velocity, Su
   }
 }
 
-// The change of velocity that keeps a point with this velocity relative to the tool outside over dt (s).
-Vector correction(const Surface& at, double friction, const Vector& velocity, double dt) {
+// The change of velocity that keeps a point with this velocity relative to the tool outside over dt (s). Friction
+// leaves the `held` components to the conditions that prescribe them (VelocityUpdate).
+Vector correction(const Surface& at, double friction, const Vector& velocity, double dt, std::uint8_t held) {
   const double speed = at.normal.dot(velocity);
   const double allowed = -at.gap / dt;  // the point lands on the surface; a point inside comes back
   const Vector push = (allowed - speed) * at.normal;
@@ -136,7 +138,11 @@ Vector correction(const Surface& at, double friction, const Vector& velocity, do
   const Vector sliding = velocity - speed * at.normal;
   const double length = sliding.norm();
   const double friction_change = friction * std::abs(allowed - speed);
-  return friction_change < length ? push - friction_change / length * sliding : Vector(push - sliding);
+  Vector rub = friction_change < length ? Vector(-friction_change / length * sliding) : Vector(-sliding);
+  for (int c = 0; c < 3; ++c) {
+    if (held >> c & 1) rub[c] = 0;
+  }
+  return push + rub;
 }
 
 // Calls visit(i, change of velocity) for the points of this rank that would enter the tool.
@@ -152,7 +158,7 @@ void for_each_change(const RigidTool& tool, const VelocityUpdate& update, const 
       choose_face(shape, place, relative, at);
       if (at.gap + dt * at.normal.dot(relative) >= 0) continue;
       *tool.touched = true;
-      visit(i, correction(at, tool.friction, relative, dt));
+      visit(i, correction(at, tool.friction, relative, dt, update.held.empty() ? 0 : update.held[i]));
     }
   };
   std::visit(keep_out, tool.shape);

@@ -514,6 +514,13 @@ TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
       key("Point", "0 0 0") + key("Normal", "0 0 1") + key("Mass", "1e-3") + key("Speed Z", "10");
   expect_told(told_of_tool("Rigid Plane", flying_tool, motion("xyz", "0"), "1e-5"),
               {"16 points that 'foot' holds", "what the tool loses to them depends on the time step"});
+  const auto pressed = [&](const std::string& force) {
+    const std::string keys =
+        key("Point", "0 0 0") + key("Normal", "0 0 1") + key("Mass", "1e-3") + key("Force Z", force);
+    return told_of_tool("Rigid Plane", keys, motion("xyz", "0"), "1e-5");
+  };
+  expect_told(pressed("1"), {"16 points that 'foot' holds"});
+  EXPECT_EQ(pressed("-1").find("last word"), std::string::npos);
 }
 
 // If conditions hold all points, the bonds across the sides take the whole stretch: several times that of a free body.
@@ -547,6 +554,18 @@ TEST(Ends, ThatConditionsHoldAlongTheirNormalAreWarnedOf) {
   };
   expect_told(told("yz"), {"WARNING: 'hold' holds 16 points of the non-reflecting end 'open' along its normal"});
   EXPECT_EQ(told("xy").find("waves are reflected"), std::string::npos) << "held across the normal";
+}
+
+TEST(Ends, WhoseInertiaIsScaledAreWarnedOf) {
+  const auto told = [](const std::string& step) {
+    Parts parts;
+    parts.conditions =
+        section("open", key("Type", "Non-Reflecting End") + key("Node Set", "foot") + key("Normal", "0 0 -1"));
+    parts.verlet = key("Mass Scaling dt", step) + key("Most Added Mass", "100");
+    return told_of(parts);
+  };
+  expect_told(told("3e-7"), {"WARNING: Mass Scaling gives points of a non-reflecting end up to "});
+  EXPECT_EQ(told("1e-8").find("Mass Scaling gives"), std::string::npos);
 }
 
 // A bar of four by four points of ordinary bonds, in whose E a third and more is not the material's.

@@ -168,6 +168,23 @@ TEST(Contact, OfBondedBlocksIsToldWhereTheGapIsSmall) {
   EXPECT_FALSE(told(0, true));
 }
 
+// Two lattices of unequal spacings on each other: ranks that have one of them each find the same parts.
+TEST(Contact, OfBondedBlocksOfUnequalSpacingsIsLookedFor) {
+  const RunFolder folder;
+  io::Mesh mesh = Lattice{4, 4, 8}.mesh();
+  const io::Mesh fine = Lattice{8, 8, 2, 0.5e-3}.mesh();
+  const auto count = static_cast<int>(mesh.nodes.size());
+  for (const Vector& X : fine.nodes) mesh.nodes.push_back(X + Vector(0, 0, 8e-3));
+  mesh.blocks.push_back(fine.blocks[0]);
+  mesh.blocks[1].name = "fine";
+  for (int& node : mesh.blocks[1].nodes) node += count;
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+  Parts parts;
+  parts.contact = with_anything();
+  const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+  EXPECT_EQ(told_at_the_start(deck, folder.world).warnings.find("parts of block"), std::string::npos);
+}
+
 TEST(Overlaps, OfSeparateBodiesAreTold) {
   for (const double apart : {0.3e-3, 0.5e-3, 1.3e-3}) {
     EXPECT_NE(warnings(apart, true, "").find("points of the blocks 'block_1' and 'block_2', one of them at"),

@@ -203,6 +203,30 @@ TEST(RigidTool, BeltAcceleratesWhatSlidesOnIt) {
   EXPECT_LT(worst_balance, 1e-3);
 }
 
+// Friction leaves points alone along the axes of their prescribed motion.
+TEST(RigidTool, FrictionLeavesPrescribedMotionsAlone) {
+  const RunFolder folder;
+  for (const std::string velocity : {"0", "3"}) {
+    Parts parts;
+    parts.conditions =
+        along("weight", "Body Force", "all", "z", "-1e9") +
+        along("hold", "Prescribed Velocity", "foot", "x", velocity) +
+        rigid_plane("belt", "0 0 0", "0 0 1", key("Friction Coefficient", "0.3") + key("Travel X", "10*t"));
+    parts.times = key("Final Time", "5e-6");
+    Simulation run(folder, parts);
+    const Ledger end = run.go();
+    double off = 0, pressed = 0;
+    for (int i = 0; i < run.body().owned(); ++i) {
+      if (run.body().domain.reference(i)[2] > 1e-3) continue;
+      off = std::max(off, std::abs(run.body().displacement(i)[0] - std::stod(velocity) * end.time));
+      pressed += 1;
+    }
+    EXPECT_LT(run.world().max(off), 1e-15);  // round-off of positions of some mm
+    EXPECT_EQ(run.world().sum(pressed), 16);
+    EXPECT_LT(end.momentum[2], 0);
+  }
+}
+
 // A block flies 0.7 spacings to a wall that its face meets all at once, with points in the middles of cells and at
 // nodes, after the way of its face and not of its points: within a step, which takes it a few hundredths of a spacing.
 // So does a block whose mesh lies in the wall, and that begins displaced.
