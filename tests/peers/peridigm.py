@@ -105,7 +105,10 @@ def differences(theirs, mine, modulus):
         kind = kind_of(name)
         scales[kind] = max(scales.get(kind, 0.0), np.abs(values).max(initial=0))
         if name in mine and kind not in ("ID", "Proc_Num", "ProcessorNumber", "Element_Id"):
-            largest[kind] = max(largest.get(kind, 0.0), np.abs(values - mine[name]).max(initial=0))
+            off = np.abs(values - mine[name])
+            # max() drops NaN, and a run that blew up would agree.
+            worst = off.max(initial=0) if np.isfinite(off).all() else np.inf
+            largest[kind] = max(largest.get(kind, 0.0), worst)
     nothing = {kind: OF_MODULUS * modulus if re.search("Force|Stress", kind) else NOTHING for kind in largest}
     return {kind: value / scales[kind] if scales[kind] > nothing[kind] else float(value > nothing[kind])
             for kind, value in largest.items()}

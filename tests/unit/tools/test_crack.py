@@ -68,6 +68,24 @@ class Cracks(InFolder):
         text = self.printed(*files, "--beam", height, modulus, 100, "--still", 15 * H, 20 * H, 25 * H)
         self.assertIn("arm: E I / the formula's 1.200, root 0.700 h behind the crack", text)
 
+    def test_a_beam_whose_force_is_that_of_its_arm_has_the_release_of_its_crack(self):
+        height, modulus, ratio, shift, toughness, width = 5 * H, 1e9, 1.2, 0.7, 100, 3 * H
+        places, notch, grown = box(40, 10, 3) - [0, 5 * H, 0], 15, np.array([0] * 8 + [2, 4, 6, 8, 10])
+        times = 1e-3 * np.arange(len(grown))
+        x, y, _ = places.T / H
+        damage = np.array([0.4 * ((np.abs(y) < 1) & (x > notch) & (x < notch + n)) for n in grown])
+        a = (notch + grown - 0.5 + 5 * shift) * H
+        arm = ratio * modulus * width * height**3 / 12
+        force = np.sqrt(toughness * arm * width) / a * np.minimum(times / times[8], 1)
+        after = np.zeros((len(times), len(places), 3))
+        after[:, :, 1] = (0.5 * force * 2 * a**3 / (3 * arm))[:, None] * np.sign(y) * (x < 1)
+        write_result(self.folder / "beam.e", {"beam": places}, after, {"Damage": damage}, times)
+        rows = "".join(f"{t!r},{f!r},0\n" for t, f in zip(times.tolist(), force.tolist()))
+        (self.folder / "beam.csv").write_text("Time,Reaction_Y(up),Fracture_Energy\n" + rows)
+        text = self.printed("beam.e", "beam.csv", "--start", notch * H, 0, "--beam", height, modulus, toughness, "--arm", ratio, shift)
+        self.assertIn("the same of the arm: 1.000 +- 0.000", text)
+        self.assertIn("P^2/(2b) dC/da: 100.000 +- 0.000", text)
+
     def test_a_plate_of_many_layers_and_a_wide_horizon_has_the_moduli_of_its_material(self):
         # Two faces of 40 layers, of which each is some 10 % too stiff over a horizon of 4 (docs/theory.md): 1 %.
         modulus, ratio = (float(x) for x in re.search(r"plane ([0-9.]+) .* ([0-9.]+)$", self.printed("--slice", 40, 4.02, 0.25)).groups())
