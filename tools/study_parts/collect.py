@@ -10,10 +10,11 @@ import numpy as np
 from decks import Deck, value_of
 from strut_tools import ROOT, fail, history_of, number, write_table
 
-from study_parts import bands
+from study_parts import bands, logs
 
 FACTS = {"points": r"^([\d,]+) points,", "steps": r"^(\d+) (?:load )?steps,", "seconds": r"^whole run +([\d.]+)",
          "balance_error": r"balance error ([\d.e+-]+)"}
+OF_LOGS = (*FACTS, "warnings")  # columns of the table
 
 
 def facts_of(case):
@@ -50,7 +51,7 @@ def rows_of(study, cases):
     rows, units = [], {"seconds": "s"}
     for case in cases:
         error = case.state().get("error")
-        row = {**case.values, **facts_of(case), "error": error or ""}
+        row = {**case.values, **facts_of(case), "warnings": len(logs.warnings_of(case)), "error": error or ""}
         known = dict(last_row(case)) if not error else {}
         if study.curve is not None and not error:
             found, wrong = measures_of(case, study.curve)

@@ -232,6 +232,19 @@ class Studies(InFolder):
             found[variable] = str(self.folder / name)
         return found
 
+    def test_warnings_of_the_runs_are_told_once_each_and_counted(self):
+        (self.folder / "bar.study").write_text(STUDY.replace("1e-3 2e-3", "1e-3").replace("plot = speed Mean_Velocity_Z", "plot = speed warnings"))
+        status, out, errors = self.study("bar.study", "out", **self.programs("""#!/bin/sh
+printf 'Time,Mean_Displacement_Z,Mean_Velocity_Z\\n0,2,1\\n' > bar.csv
+grep -q 'value="-20"' bar.xml && echo 'WARNING: nothing moved' && t=2.5e-05 || t=5e-05
+echo "WARNING: blocks a and b meet at about t = $t s"; echo "WARNING: blocks a and b meet at about t = 1 s"
+"""))
+        self.assertEqual((status, errors), (0, ""), out)
+        self.assertEqual([row["warnings"] for row in self.rows()], ["1", "2"])
+        self.assertEqual([line for line in out.splitlines() if "WARNING" in line],
+                         ["WARNING in 2 of 2 runs, here speed=10,spacing=1e-3: blocks a and b meet at about t = 5e-05 s",
+                          "WARNING in 1 of 2 runs, here speed=20,spacing=1e-3: nothing moved"])
+
     def convergence(self, folder="out"):
         with open(self.folder / folder / "convergence.csv", newline="") as file:
             return {row["measure"]: row for row in csv.DictReader(file)}
