@@ -188,6 +188,16 @@ def shortening(deck, table, axis, words):
          f"(History > Profiles), or name a column or an expression of t by --shortening")
 
 
+def unstrained(deck, block, axis, height, how):
+    """What part of the height a motion of outer points leaves unstrained; None if it moves nodes, or sides. The distance
+    of layers is corrected for it."""
+    if not how.startswith(("Mean_Displacement", "the motion")) or (deck and deck.get("Discretization", "Points") == "Nodes"):
+        return None
+    edge = extent.edge_of(deck and deck.file("Discretization", "Input Mesh File"), block, axis)
+    share = f", {100 * edge / height:.2g} % of the height in all" if edge else ""
+    return f"half a spacing at each end{share}: the outer points are the middles of cells, so that strain is too small by that"
+
+
 def layers(table, axis, wanted=None):
     """Positions and velocities (rows x layers) of a profile of the history, and the number of layers; or None."""
     found = {}

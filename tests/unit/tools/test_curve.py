@@ -138,6 +138,18 @@ class Extents(InFolder):
         self.assertIsNone(extent.size_of(str(self.folder / "none.g"), "foam"))
         self.assertIsNone(extent.size_of(self.write(np.full((1, 3), 0.5), element=None), "foam"))
 
+    def test_what_moves_outer_points_leaves_half_a_spacing_at_each_end(self):
+        self.write(np.array([[0.5, 0.5, z + 0.5] for z in range(5)]))
+        deck = self.folder / "a.xml"
+        for points, how, expected in (("Elements", "Mean_Displacement_Z(top)", "half a spacing at each end, 20 % of the height"),
+                                      ("Elements", "the motion of `top`", "half a spacing at each end, 20 % of the height"),
+                                      ("Elements", "the distance of the outer layers", None), ("Nodes", "the motion of `top`", None)):
+            deck.write_text(f'<a><ParameterList name="Discretization"><Parameter name="Points" value="{points}"/>'
+                            '<Parameter name="Input Mesh File" value="m.g"/></ParameterList></a>')
+            found = source.unstrained(Deck(str(deck)), "foam", 2, 5, how)
+            self.assertEqual(found and found[:len(expected)], expected)
+        self.assertIn("half a spacing at each end: ", source.unstrained(None, None, 2, 5, "Mean_Displacement_Z(top)"))  # unknown
+
     def test_a_lattice_of_points_ends_half_a_step_of_each_axis_beyond_them(self):
         def grid(*counts):
             return np.stack(np.meshgrid(*(np.arange(n) + 0.5 for n in counts), indexing="ij"), -1).reshape(-1, 3)
