@@ -34,7 +34,9 @@ std::optional<double> first_meeting(const Situation& situation, int one, int oth
   std::optional<double> first;
   for (int image = 0; image < images.count(); ++image) {
     Trajectory b = situation.trajectories[other];
-    b.places.translate(images[image].stretched(domain.halo.stretch()).shift);
+    const Vector shift = images[image].stretched(domain.halo.stretch()).shift;
+    b.places.translate(shift);
+    b.cells.translate(shift);
     if (may_be_bonded(domain.blocks[one], domain.blocks[other], a.places.exteriorDistance(b.places))) continue;
     const auto time = meeting_time(a, b, situation.duration);
     if (time) first = std::min(*time, first.value_or(*time));

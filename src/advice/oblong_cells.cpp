@@ -27,11 +27,18 @@ bool reaches_horizon(const Domain& domain, int i, const Vector& direction) {
   return std::min(ahead, behind) > domain.horizon(i) - (1 - 1e-6) * layer;
 }
 
+// True if a neighbor has less than a whole cell, as nodes at a surface have.
+bool has_parts_of_cells(const Domain& domain, int i) {
+  bool found = false;
+  domain.families.for_each(i, [&](int j) { found |= domain.volume(j) < 0.75 * domain.volume(i); });
+  return found;
+}
+
 // 3 K/tr K of an ordinary point, K = Σ ω V ξ⊗ξ: by how much its dilatation (3/m) Σ ω V |ξ| e counts strain along each
 // direction. Zero where a surface is near.
 Tensor counts_of_strain(const Body& body, int i) {
   const Tensor inverse = to_tensor(body.shape_inverse[i]);
-  if (!(inverse.trace() > 0)) return Tensor::Zero();
+  if (!(inverse.trace() > 0) || has_parts_of_cells(body.domain, i)) return Tensor::Zero();
   const Tensor K = inverse.inverse();
   const Tensor axes = Eigen::SelfAdjointEigenSolver<Tensor>(K).eigenvectors();
   for (int c = 0; c < 3; ++c) {

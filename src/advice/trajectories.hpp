@@ -13,15 +13,16 @@ namespace strut {
 // The first moment, over which prescribed displacements are evaluated, as a fraction of the duration.
 inline constexpr double first_moment = 1e-3;
 
-// The boxes of a block's positions and velocities, over all ranks.
+// The boxes of a block's positions, of its cells, and of its velocities, over all ranks.
 struct Trajectory {
-  Eigen::AlignedBox3d places, velocities;
+  Eigen::AlignedBox3d places, cells, velocities;
 };
 
 // Collective. One for each block; initial and prescribed velocities of the start. `start`, `duration`: s.
 std::vector<Trajectory> trajectories(const Scene& scene, double start, double duration);
 
-// The first time in [0, duration] at which the boxes, moved with these velocities, overlap; s.
+// The first time in [0, duration] at which the boxes of cells, moved with these velocities, overlap; s. Those that
+// touch at the start meet only if they go on to overlap.
 std::optional<double> meeting_time(const Trajectory& a, const Trajectory& b, double duration);
 
 }  // namespace strut

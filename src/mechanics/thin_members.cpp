@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "base/errors.hpp"
 #include "topology/bounding_box.hpp"
 #include "topology/nearby_ranks.hpp"
 #include "topology/neighbors/cell_grid.hpp"
@@ -50,6 +52,39 @@ std::vector<Sample> own_samples(const Domain& domain) {
     samples.push_back({{X[0], X[1], X[2]}, cloud.spacings[i], domain.volume(i), static_cast<double>(block)});
   }
   return samples;
+}
+
+// The images of the domain's bodies within `reach`; nothing if there are too many, of bodies thinner than that.
+std::optional<Images> images_of(const Domain& domain, double reach) {
+  if (!domain.periods.empty()) return Images(domain.periods, reach);
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Mirror& mirror : domain.mirrors) {
+    Eigen::AlignedBox3d box;
+    for (int i = 0; i < domain.owned; ++i) {
+      if (domain.body_of(i) == mirror.body) box.extend(domain.reference(i));
+    }
+    boxes.push_back(common_box(box, domain.communicator));
+  }
+  try {
+    return Images(domain.mirrors, boxes, reach);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+// Symmetry planes and periodic sides are no surface. The images of samples see of a body what samples see of its
+// images.
+void add_images(const Domain& domain, const Images& images, const Eigen::AlignedBox3d& all, double reach,
+                std::vector<Sample>& samples) {
+  for (std::size_t s = 0, own = samples.size(); s < own; ++s) {
+    for (const int image : images.of_body(domain.blocks[static_cast<std::size_t>(samples[s].block)].body)) {
+      const Vector place = images[image](samples[s].at());
+      if (all.squaredExteriorDistance(place) > reach * reach) continue;
+      Sample one = samples[s];
+      std::copy_n(place.data(), 3, one.place);
+      samples.push_back(one);
+    }
+  }
 }
 
 // Adds for each block the material of its body around the samples that this rank has, times their volume over their
@@ -102,10 +137,13 @@ std::vector<double> thicknesses(const Domain& domain) {
   farthest = domain.communicator.max(farthest);
   Eigen::AlignedBox3d mine;
   for (int i = 0; i < domain.owned; ++i) mine.extend(domain.reference(i));
+  std::vector<double> thicknesses(blocks, 0);
+  const std::optional<Images> images = images_of(domain, farthest);
+  if (!images) return thicknesses;
+  add_images(domain, *images, common_box(mine, domain.communicator), farthest, samples);
   add_nearby(samples, mine, farthest, domain.communicator);
   add_shares(domain, samples, std::span(sums).subspan(found * blocks));
   domain.communicator.sum(sums);
-  std::vector<double> thicknesses(blocks, 0);
   for (std::size_t b = 0; b < blocks; ++b) {
     const auto sum = [&](Sum of) { return sums[of * blocks + b]; };
     const double volume = sum(of_volume), missing = (sum(whole) - sum(found)) * sum(of_spacing) / (volume * volume);

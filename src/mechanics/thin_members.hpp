@@ -7,7 +7,8 @@ namespace strut {
 
 // Collective. 4 volume/surface of each block, in spacings: the thickness of round and square rods, twice that of
 // plates. Accurate to a seventh up to 100 spacings, else 0, for any mesh in any orientation: the surface follows from
-// the material that is missing around points. Interfaces between blocks of one body are no surface.
+// the material that is missing around points. Interfaces between blocks of one body, symmetry
+// planes with images and periodic sides are no surface.
 std::vector<double> thicknesses(const Domain& domain);
 
 // The fraction of bending stiffness that struts `thickness` spacings thick retain by correspondence, measured by

@@ -9,16 +9,28 @@ SOLIDS = ("HEX", "TET")
 NUMBERS = ["centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "moment_zz"]
 
 
-def size_of(path, block):
-    """Edges (m) of the box around the elements of a block, or of all; None if the mesh does not contain it."""
-    if not os.path.isfile(path):
+def of_blocks(path, block, what):
+    """`what` of each block of this name, or of all; None if the mesh does not contain it."""
+    if not path or not os.path.isfile(path):
         return None
     try:
         with opened(path) as file:
-            boxes = [box_of(file, n) for n, name in enumerate(names_in(file, "eb_names"), 1) if block in (None, name)]
+            found = [what(file, n) for n, name in enumerate(names_in(file, "eb_names"), 1) if block in (None, name)]
     except (OSError, KeyError, AttributeError):
         return None
-    if not boxes or any(box is None for box in boxes):
+    return None if not found or any(one is None for one in found) else found
+
+
+def edge_of(path, block, axis):
+    """The median edge (m) of the elements of a block, or of all, along an axis; None if the mesh does not contain it."""
+    found = of_blocks(path, block, cells_of)
+    return found and np.median(np.concatenate([edges for edges, *_ in found])[:, axis])
+
+
+def size_of(path, block):
+    """Edges (m) of the box around the elements of a block, or of all; None if the mesh does not contain it."""
+    boxes = of_blocks(path, block, box_of)
+    if boxes is None:
         return None
     return np.max([high for _, high in boxes], axis=0) - np.min([low for low, _ in boxes], axis=0)
 

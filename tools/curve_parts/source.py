@@ -188,6 +188,16 @@ def shortening(deck, table, axis, words):
          f"(History > Profiles), or name a column or an expression of t by --shortening")
 
 
+def unstrained(deck, block, axis, height, how):
+    """What part of the height a motion of outer points leaves unstrained; None if it moves nodes, or sides. The distance
+    of layers is corrected for it."""
+    if not how.startswith(("Mean_Displacement", "the motion")) or (deck and deck.get("Discretization", "Points") == "Nodes"):
+        return None
+    edge = extent.edge_of(deck and deck.file("Discretization", "Input Mesh File"), block, axis)
+    share = f", {100 * edge / height:.2g} % of the height in all" if edge else ""
+    return f"half a spacing at each end{share}: the outer points are the middles of cells, so that strain is too small by that"
+
+
 def layers(table, axis, wanted=None):
     """Positions and velocities (rows x layers) of a profile of the history, and the number of layers; or None."""
     found = {}
@@ -263,12 +273,18 @@ def result_of(deck, words):
     return Result(path) if os.path.isfile(path) else None
 
 
-def points_of(result, block):
-    """Nodes and volumes of a block, or of all."""
+def blocks_of(result, block):
+    """The block of this name, or all."""
     blocks = [b for b in result.blocks if block is None or b.name == block]
     if not blocks:
         names = [b.name for b in result.blocks]
         fail(f"{result.path} has no block '{block}'{nearest(block, names)}; there {'are' if len(names) > 1 else 'is'} {', '.join(names)}")
+    return blocks
+
+
+def points_of(result, block):
+    """Nodes and volumes of a block, or of all."""
+    blocks = blocks_of(result, block)
     if any(b.volumes is None for b in blocks):
         fail(f"{result.path} does not say how large its points are: name --area (m2) and --height (m)")
     return np.concatenate([b.nodes for b in blocks]), np.concatenate([b.volumes for b in blocks])
@@ -291,29 +307,35 @@ def block_of(deck, names, words):
 
 
 def density_of(deck, block, volume, words, found):
-    if words.density is not None:
+    if words.density is not None or deck is None:
         return words.density
-    material = deck and material_density(deck, block)
-    if not material:
-        return None
     result = result_of(deck, words)
     if result is not None and all(b.volumes is not None for b in result.blocks):
-        found["density"] = f"from the points of {result.path}"
-        return material * points_of(result, block)[1].sum() / volume
+        return density_of_points(deck, result, block, volume, found)
     recipe = deck.recipe()
     body = recipe and recipe.body(block)
-    if body and "relative_density" in body:
-        found["density"] = f"from {recipe.path}"
-        return material * float(body["relative_density"])
-    return None
+    material = body and "relative_density" in body and material_density(deck, block or body.get("name", "body"))
+    if not material:
+        return None
+    found["density"] = f"from {recipe.path}"
+    return material * float(body["relative_density"])
+
+
+def density_of_points(deck, result, block, volume, found):
+    """The mass of all blocks of the sample, each of its own material, over the volume."""
+    volumes = {b.name: b.volumes.sum() for b in blocks_of(result, block) if len(b.nodes)}
+    materials = {name: material_density(deck, name) for name in volumes}
+    unknown = next((name for name, value in materials.items() if not value), None)
+    found["density"] = f"from the points of {result.path}" if unknown is None else f"nowhere: {deck.path} has none for block '{unknown}'"
+    return sum(materials[name] * volumes[name] for name in volumes) / volume if unknown is None else None
 
 
 def material_density(deck, block):
-    """Density of the material of a block, or of the only one, kg/m³."""
+    """Density of the material of a block, kg/m³."""
     sections = [(keys, (value_in(keys, "Block Names") or "").split()) for keys in deck.sections("Blocks").values()]
     named = any(block in names for _, names in sections)
     for keys, names in sections:
-        if block is None or block in names or "all" in names or ("default" in names and not named):
+        if block in names or "all" in names or ("default" in names and not named):
             value = deck.get("Materials", value_in(keys, "Material") or "", "Density")
             return value and float(value)
     return None

@@ -60,7 +60,8 @@ std::vector<double> uniform_levels(double spacing, double height) {
   const int layers = std::max(1, static_cast<int>(std::lround(height / spacing)));
   const double layer = height / layers;
   std::vector<double> levels;
-  for (int k = 0; k <= layers; ++k) levels.push_back(layer * k);
+  for (int k = 0; k < layers; ++k) levels.push_back(layer * k);
+  levels.push_back(height);  // without round-off: another body may begin there
   return levels;
 }
 
@@ -120,7 +121,9 @@ Section fitted_disc(double radius, double spacing) {
 Section rectangle(double a, double b, double spacing) {
   const int n = std::max(1, static_cast<int>(std::lround(a / spacing)));
   const int m = std::max(1, static_cast<int>(std::lround(b / spacing)));
-  Section section = grid(n, m, all, [&](int i, int j) { return Point(a * i / n, b * j / m); });
+  // a * n / n may differ from a by round-off.
+  Section section =
+      grid(n, m, all, [&](int i, int j) { return Point(i == n ? a : a * i / n, j == m ? b : b * j / m); });
   section.sides = {{"xmin", nodes_where(section, [](const Point& p) { return p.x() == 0; })},
                    {"xmax", nodes_where(section, [&](const Point& p) { return p.x() == a; })},
                    {"ymin", nodes_where(section, [](const Point& p) { return p.y() == 0; })},

@@ -73,6 +73,11 @@ def box_set(face):
     return f"Node Set of the face {face} of the box"
 
 
+def is_of_edges(warning):
+    """True for the word of strut that points are of two faces: both move them alike."""
+    return warning.endswith("which stands later and alone counts there, as in Peridigm")
+
+
 def expression(face, low, high, depth):
     """An expression of the points at most this deep below a face."""
     axis = "xyz".index(face[0])

@@ -10,6 +10,11 @@ def asymmetry(C):
     return float(np.abs(C - C.T).max() / np.abs(C).max())
 
 
+def extremes(C):
+    """The least and the largest eigenvalue."""
+    return np.linalg.eigvalsh(symmetric(C))[[0, -1]]
+
+
 def engineering(C):
     """{name: value} for Young's moduli, shear moduli (Pa) and Poisson's ratios along the axes."""
     S = np.linalg.inv(symmetric(C))

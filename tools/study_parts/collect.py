@@ -10,18 +10,36 @@ import numpy as np
 from decks import Deck, value_of
 from strut_tools import ROOT, fail, history_of, number, write_table
 
-from study_parts import bands
+from study_parts import bands, logs
 
-FACTS = {"points": r"^([\d,]+) points,", "steps": r"^(\d+) (?:load )?steps,", "seconds": r"^whole run +([\d.]+)",
+FACTS = {"points": r"^([\d,]+) points,", "steps": r"^(\d+) (load )?steps,", "seconds": r"^whole run +([\d.]+)",
          "balance_error": r"balance error ([\d.e+-]+)"}
+OF_LOGS = (*FACTS, "warnings")  # columns of the table
 
 
 def facts_of(case):
-    """The facts in the log of a run, the last one of each kind."""
+    """The facts in the log of a run: the last points and balance error; steps and seconds of all parts, if it was stopped
+    and went on. One part tells the seconds of both of its solvers, and the steps of each: those of the last one count."""
     with open(case.log, errors="replace") as file:
         text = file.read()
-    found = {name: re.findall(pattern, text, re.M) for name, pattern in FACTS.items()}
-    return {name: float(values[-1].replace(",", "")) for name, values in found.items() if values}
+    parts = re.split(r"^(?=[\d,]+ points, [\d,]+ bonds)", text, flags=re.M)
+    parts = parts[1:] or parts  # before the first one stands what strut-mesh says
+    found = {name: last_of(name, text) for name in ("points", "balance_error")}
+    found["seconds"] = total([last_of("seconds", part) for part in parts])
+    steps = [{kind: float(n) for n, kind in re.findall(FACTS["steps"], part, re.M)} for part in parts]
+    kind = next(reversed(steps[-1]), "")
+    found["steps"] = total([of.get(kind, 0) if of else None for of in steps])
+    return {name: found[name] for name in FACTS if found[name] is not None}
+
+
+def last_of(name, text):
+    values = re.findall(FACTS[name], text, re.M)
+    return float(values[-1].replace(",", "")) if values else None
+
+
+def total(numbers):
+    """None if a part does not tell its own: it was killed."""
+    return None if None in numbers else sum(numbers)
 
 
 def last_row(case):
@@ -50,7 +68,7 @@ def rows_of(study, cases):
     rows, units = [], {"seconds": "s"}
     for case in cases:
         error = case.state().get("error")
-        row = {**case.values, **facts_of(case), "error": error or ""}
+        row = {**case.values, **facts_of(case), "warnings": len(logs.warnings_of(case)), "error": error or ""}
         known = dict(last_row(case)) if not error else {}
         if study.curve is not None and not error:
             found, wrong = measures_of(case, study.curve)

@@ -10,7 +10,7 @@ def rows_of(study, name, kinds, rows, units, theory):
     """A row for each kind of run and measure; grids without a value are ignored. The finest grid comes first."""
     row_of = {tuple(row[n] for names, _ in study.vary for n in names): row for row in rows}
     varied = {n for names, _ in study.vary for n in names}
-    measures = [n for n in dict.fromkeys(n for row in rows for n in row) if n not in varied | {"error", *collect.FACTS}]
+    measures = [n for n in dict.fromkeys(n for row in rows for n in row) if n not in varied | {"error", *collect.OF_LOGS}]
     return [row_of_measure(name, kind, measure, [row_of[tuple(case.values.values())].get(measure) for case in kind.cases],
                            units.get(measure, ""), theory) for kind in kinds for measure in measures]
 

@@ -6,7 +6,7 @@ from curve_parts import measures, shock, source
 from decks import NoExpression, evaluated, is_true, value_in
 from strut_tools import Parser, fail, nearest
 
-from .collect import FACTS
+from .collect import OF_LOGS
 
 # The first columns of every history (src/output/writers.cpp).
 ALWAYS = ("Time", "Step_Size", "Kinetic_Energy", "Elastic_Energy", "Plastic_Work", "Stabilization_Energy", "Fracture_Energy",
@@ -43,7 +43,7 @@ def check(study, deck):
     for name in study.collect:
         study.expect(name, columns + read, "to collect")
     varied = [name for names, _ in study.vary for name in names]
-    known = list(dict.fromkeys(varied + list(FACTS) + (study.collect or read)))
+    known = list(dict.fromkeys(varied + list(OF_LOGS) + (study.collect or read)))
     for plot in study.plots:
         for name in (plot.x, plot.y, plot.by):
             if name:

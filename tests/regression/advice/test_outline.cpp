@@ -611,6 +611,22 @@ TEST(OblongCells, OfOrdinaryPointsSurfacesAndCracksAreToldOf) {
   expect_told(told(itself), {dilatation, surfaces});
 }
 
+// Nodes of cubes, of which those at a surface have parts of a cell; one layer in the middle does not see past them.
+TEST(OblongCells, NodesAtASurfaceOfCubesAreNone) {
+  Lattice lattice{.nx = 8, .ny = 8, .nz = 4};
+  const RunFolder folder(lattice);
+  Parts parts;
+  parts.points = "Nodes";
+  parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+  const auto told = [&] {
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  EXPECT_EQ(told().find("not on a cubic lattice"), std::string::npos) << told();
+  lattice.nx = lattice.ny = lattice.nz = 8;
+  write_stretched(folder, lattice, {1, 1, 2});
+  expect_told(told(), {"not on a cubic lattice"});
+}
+
 // The output of rank 0. `solver`: the section of the steps.
 std::string told_by_run(const std::string& conditions, const std::string& solver = "Verlet") {
   const RunFolder folder;

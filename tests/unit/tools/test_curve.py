@@ -5,6 +5,7 @@ import pathlib
 import tempfile
 import unittest
 import xml.etree.ElementTree as tree
+from types import SimpleNamespace
 
 from tool_test import InFolder
 
@@ -136,6 +137,18 @@ class Extents(InFolder):
         self.assertIsNone(extent.size_of(mesh, "plate"))
         self.assertIsNone(extent.size_of(str(self.folder / "none.g"), "foam"))
         self.assertIsNone(extent.size_of(self.write(np.full((1, 3), 0.5), element=None), "foam"))
+
+    def test_what_moves_outer_points_leaves_half_a_spacing_at_each_end(self):
+        self.write(np.array([[0.5, 0.5, z + 0.5] for z in range(5)]))
+        deck = self.folder / "a.xml"
+        for points, how, expected in (("Elements", "Mean_Displacement_Z(top)", "half a spacing at each end, 20 % of the height"),
+                                      ("Elements", "the motion of `top`", "half a spacing at each end, 20 % of the height"),
+                                      ("Elements", "the distance of the outer layers", None), ("Nodes", "the motion of `top`", None)):
+            deck.write_text(f'<a><ParameterList name="Discretization"><Parameter name="Points" value="{points}"/>'
+                            '<Parameter name="Input Mesh File" value="m.g"/></ParameterList></a>')
+            found = source.unstrained(Deck(str(deck)), "foam", 2, 5, how)
+            self.assertEqual(found and found[:len(expected)], expected)
+        self.assertIn("half a spacing at each end: ", source.unstrained(None, None, 2, 5, "Mean_Displacement_Z(top)"))  # unknown
 
     def test_a_lattice_of_points_ends_half_a_step_of_each_axis_beyond_them(self):
         def grid(*counts):
@@ -291,6 +304,23 @@ class Runs(InFolder):
         strain = [float(row[1]) for row in self.table("block-curve.csv")[1:]]
         np.testing.assert_allclose(strain, 0.5 * times * (1 - times), atol=1e-7)  # of 20 mm; the rim moves by 1e-9 m
         self.assertEqual(source.material_density(Deck(str(self.folder / "block.xml")), "foam"), 4000)
+
+    def test_the_density_of_several_blocks_is_their_mass_over_the_volume(self):
+        volumes = {"low": np.full(27, 1e-9), "high": np.full(9, 1e-9), "empty": np.zeros(0)}
+        result = SimpleNamespace(path="o.e", blocks=[SimpleNamespace(name=n, nodes=np.arange(len(v)), volumes=v) for n, v in volumes.items()])
+        section = '<ParameterList name="one"><Parameter name="Block Names" type="string" value="%s"/>'
+        material = '<ParameterList name="stuff">\n    <Parameter name="Density" type="double" value="%s"/></ParameterList>'
+        other = section.replace("one", "two") % "high" + '<Parameter name="Material" type="string" value="heavy"/></ParameterList>'
+        deck = DECK.replace(section % "all", other + section % "low").replace(
+            material % 4000, material % 1000 + (material % 3000).replace("stuff", "heavy"))
+        (self.folder / "block.xml").write_text(deck)
+        for block, expected in ((None, (27 * 1000 + 9 * 3000) / 36), ("low", 27 / 36 * 1000), ("high", 9 / 36 * 3000)):
+            found = source.density_of_points(Deck(str(self.folder / "block.xml")), result, block, 36e-9, {})
+            self.assertAlmostEqual(found, expected, 9, msg=block)
+        (self.folder / "block.xml").write_text(deck.replace('"high"', '"top"'))
+        how = {}
+        self.assertIsNone(source.density_of_points(Deck(str(self.folder / "block.xml")), result, None, 36e-9, how))
+        self.assertEqual(how, {"density": f"nowhere: {self.folder}/block.xml has none for block 'high'"})
 
     def test_where_a_tool_stands_at_the_start_is_no_strain(self):
         tool = DECK.replace("Prescribed Displacement", "Rigid Plane").replace('"Value"', '"Travel Z"')

@@ -126,6 +126,17 @@ TEST_F(MeshTool, BoxFillsItsSizeAndHasSixFaces) {
   EXPECT_EQ(set_sizes(cloud), expected);
 }
 
+TEST_F(MeshTool, BoxesOfAllNumbersOfLayersHaveSixFaces) {
+  for (const char* size : {"6e-3 4e-3 4e-3", "4e-3 6e-3 4e-3", "4e-3 4e-3 6e-3"}) {  // 0.006 * 6 / 6 > 0.006
+    const PointCloud cloud = made(std::string("shape = box\nspacing = 1e-3\nsize = ") + size);
+    EXPECT_EQ(cloud.size(), 96);
+    for (const auto& [name, count] : set_sizes(cloud)) EXPECT_TRUE(count == 16 || count == 24) << size << " " << name;
+  }
+  const PointCloud flat = made("shape = box\nspacing = 1e-3\nsize = 97e-3 53e-3 1e-3");
+  EXPECT_EQ(set_sizes(flat)["body_xmax"], 53);
+  EXPECT_EQ(set_sizes(flat)["body_ymax"], 97);
+}
+
 TEST_F(MeshTool, ARecipeMayBeginWithAByteOrderMark) {
   EXPECT_EQ(made("\xef\xbb\xbfshape = box\nsize = 1 2 3\nspacing = 1\n").size(), 6);
 }

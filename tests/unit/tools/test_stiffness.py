@@ -132,6 +132,20 @@ class Samples(InFolder):
         self.assertGreater(min(cube), bar * (1 - 3 / n))
         self.assertLess(max(cube), bar / (1 - wide / n))
 
+    @unittest.skipUnless("STRUT" in os.environ, "STRUT names no program")
+    def test_a_sample_of_two_pieces_is_told_and_has_no_stiffness(self):
+        """Two blocks that touch, whose nodes are not merged: quadratic cells connect points through nodes alone."""
+        (self.folder / "two.recipe").write_text("shape = box\nspacing = 1e-3\nsize = 3e-3 3e-3 3e-3\n[body]\nname = a\n[body]\nname = b\n"
+                                                "origin = 3e-3 0 0\n")
+        (self.folder / "two.xml").write_text(deck("two.g", {"a": (70e9, 0.3), "b": (20e9, 0.3)}, "Quadratic Correspondence"))
+        done = self.stiffness("two.xml", "out", "--boundaries", "mixed")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("mixed boundaries: the stiffness is not positive definite: its eigenvalues are ", done.stderr)
+        told = [line for line in done.stdout.splitlines() if "WARNING" in line]
+        self.assertEqual(len(told), 1, told)  # not that edges are of two faces, which is meant
+        self.assertRegex(told[0], "WARNING in 4 of 4 runs, here mixed-xx: .* nothing connects the two")
+        self.assertFalse((self.folder / "out/stiffness.csv").exists())
+
     def test_elements_are_numbered_by_blocks_in_whatever_order_the_file_holds_them(self):
         corners = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)], float)
         nodes = np.concatenate([corners, corners + (0, 0, 1), corners + (0, 0, 2)])

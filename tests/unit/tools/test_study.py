@@ -18,7 +18,7 @@ from tool_test import TOOLS, InFolder
 
 from decks import Deck, Recipe
 from strut_tools import history_of
-from study_parts import bands, convergence, grids, names, plan
+from study_parts import bands, collect, convergence, grids, names, plan
 
 DECK = """<ParameterList>
   <ParameterList name="Discretization"><Parameter name="Type" type="string" value="Exodus"/>
@@ -231,6 +231,37 @@ class Studies(InFolder):
             (self.folder / name).chmod(0o755)
             found[variable] = str(self.folder / name)
         return found
+
+    def test_warnings_of_the_runs_are_told_once_each_and_counted(self):
+        (self.folder / "bar.study").write_text(STUDY.replace("1e-3 2e-3", "1e-3").replace("plot = speed Mean_Velocity_Z", "plot = speed warnings"))
+        status, out, errors = self.study("bar.study", "out", **self.programs("""#!/bin/sh
+printf 'Time,Mean_Displacement_Z,Mean_Velocity_Z\\n0,2,1\\n' > bar.csv
+grep -q 'value="-20"' bar.xml && echo 'WARNING: nothing moved' && t=2.5e-05 || t=5e-05
+echo "WARNING: blocks a and b meet at about t = $t s"; echo "WARNING: blocks a and b meet at about t = 1 s"
+"""))
+        self.assertEqual((status, errors), (0, ""), out)
+        self.assertEqual([row["warnings"] for row in self.rows()], ["1", "2"])
+        self.assertEqual([line for line in out.splitlines() if "WARNING" in line],
+                         ["WARNING in 2 of 2 runs, here speed=10,spacing=1e-3: blocks a and b meet at about t = 5e-05 s",
+                          "WARNING in 1 of 2 runs, here speed=20,spacing=1e-3: nothing moved"])
+
+    def test_steps_and_seconds_are_those_of_all_parts_of_a_run_that_went_on(self):
+        size = "54 points, 900 bonds (24.3 a point)\n"
+        loads, steps = ("whole run {}\n{} load steps, 9 iterations\n", "whole run {}\n{} steps, 2e+05 points*steps/s\n")
+        last = steps + "balance error 2e-3 of the largest energy\n"
+
+        def facts(*parts):
+            (self.folder / "log").write_text("bar.g: 54 points, 90 nodes\n" + "".join(size + part for part in parts))
+            found = collect.facts_of(SimpleNamespace(log=self.folder / "log"))
+            return found.get("steps"), found.get("seconds")
+        self.assertEqual(facts(last.format(4.75, 255)), (255, 4.75))
+        self.assertEqual(facts(steps.format(4.75, 255), last.format(10.5, 496)), (751, 15.25))
+        # Equilibria, then steps: the seconds of the second report have those of the first one in them.
+        both = loads.format(2, 10) + last.format(5, 300)
+        self.assertEqual(facts(both), (300, 5))
+        self.assertEqual(facts(loads.format(1.5, 6), loads.format(2, 10) + steps.format(5, 300), last.format(4, 200)), (500, 10.5))
+        self.assertEqual(facts("", last.format(4, 200)), (None, None))  # killed: how far it came, it does not say
+        self.assertEqual(facts(""), (None, None))
 
     def convergence(self, folder="out"):
         with open(self.folder / folder / "convergence.csv", newline="") as file:

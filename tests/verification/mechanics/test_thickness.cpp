@@ -21,7 +21,8 @@ struct Cell {
 using Cells = std::vector<Cell>;
 
 // By the program; every rank brings its share.
-double thickness(const Cells& cells, PointsAt at = PointsAt::elements) {
+double thickness(const Cells& cells, PointsAt at = PointsAt::elements, std::vector<Mirror> mirrors = {},
+                 std::vector<Period> periods = {}) {
   const Communicator world;
   PointCloud cloud;
   cloud.at = at;
@@ -32,7 +33,8 @@ double thickness(const Cells& cells, PointsAt at = PointsAt::elements) {
     if (static_cast<int>(k) % world.size() != world.rank()) continue;
     add_point(cloud, static_cast<std::int64_t>(k), cells[k].middle, cells[k].volume, cells[k].spacing);
   }
-  return thicknesses(make_domain(partitioned(std::move(cloud), world), {{2 * largest, 0}}, world))[0];
+  return thicknesses(make_domain(partitioned(std::move(cloud), world), {{2 * largest, 0}}, world, {},
+                                 std::move(mirrors), std::move(periods)))[0];
 }
 
 Cells box(
@@ -91,6 +93,29 @@ TEST(Thickness, OfNodes) {
     EXPECT_NEAR(thickness(turned(nodes_of_box(n)), PointsAt::nodes), expected, of_steps * expected)
         << n[0] << " " << n[2];
   }
+}
+
+Mirror mirror(const Vector& normal, double at) { return {.on = -at * normal, .normal = normal}; }
+
+// A plate is 4 V/S = 2 t thick.
+TEST(Thickness, PeriodicSidesAreNoSurface) {
+  const std::vector<Period> along = {{0, 4}, {1, 4}}, thin = {{0, 1}, {1, 1}};
+  EXPECT_NEAR(thickness(box(4, 4, 16), PointsAt::elements, {}, along), 2 * 16, of_steps * 2 * 16);
+  EXPECT_NEAR(thickness(box(1, 1, 6), PointsAt::elements, {}, thin), 2 * 6, of_steps * 2 * 6);
+  EXPECT_EQ(thickness(box(4, 4, 4), PointsAt::elements, {}, {{0, 4}, {1, 4}, {2, 4}}), 0) << "no surface";
+}
+
+TEST(Thickness, SymmetryPlanesAreNoSurface) {
+  const std::vector<Mirror> corner = {mirror(Vector::UnitX(), 3), mirror(Vector::UnitZ(), 5)};
+  const double whole = thickness(box(12, 6, 20)), of_nodes = thickness(nodes_of_box({12, 6, 20}), PointsAt::nodes);
+  EXPECT_NEAR(thickness(box(6, 6, 10), PointsAt::elements, corner), whole, 1e-9 * whole) << "round-off";
+  EXPECT_NEAR(thickness(nodes_of_box({6, 6, 10}), PointsAt::nodes, corner), of_nodes, 1e-9 * of_nodes) << "round-off";
+  std::vector<Mirror> around;
+  for (int c = 0; c < 3; ++c) {
+    for (const double side : {1, -1}) around.push_back(mirror(side * Vector::Unit(c), 0.5));
+  }
+  EXPECT_NEAR(thickness(box(1, 1, 6), PointsAt::elements, {around.begin(), around.begin() + 4}), 12, of_steps * 12);
+  EXPECT_EQ(thickness(box(1, 1, 1), PointsAt::elements, around), 0) << "more images than are made";
 }
 
 // Rods of whole cells on a lattice, as voxels have them: their volume is known by counting, their surface is that of
