@@ -1,7 +1,6 @@
 // The lines of a run about its scene before it begins: they reveal wrong units, and count the pieces.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -372,21 +371,10 @@ TEST(Tools, ThatAreInsideOfABodyAtTheStartAreToldOf) {
   EXPECT_EQ(told_of(parts).find("WARNING"), std::string::npos);
 }
 
-// The reaches of tetrahedra are estimates, larger than from the center to a face. Six share a diagonal of each cube.
+// The reaches of tetrahedra are estimates, larger than from the center to a face.
 TEST(Tools, ThatTouchTetrahedraStandInNone) {
-  io::Mesh mesh = Lattice().mesh();
-  constexpr std::array<std::array<int, 2>, 6> others{{{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}}};
-  for (io::Mesh::Block& block : mesh.blocks) {
-    const std::vector<int> corners = std::exchange(block.nodes, {});
-    block.type = "TET4";
-    for (std::size_t n = 0; n < corners.size(); n += 8) {
-      for (const auto& [a, b] : others) {
-        for (const int corner : {0, a, b, 6}) block.nodes.push_back(corners[n + corner]);
-      }
-    }
-  }
   const RunFolder folder;
-  run_on_root(folder.world, [&] { io::write_mesh(folder / "tetrahedra.g", mesh); });
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "tetrahedra.g", in_tetrahedra(Lattice().mesh())); });
   Parts parts;
   parts.mesh_file = "tetrahedra.g";
   parts.conditions = plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1");
