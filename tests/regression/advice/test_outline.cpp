@@ -430,6 +430,25 @@ TEST(Tools, ThatAreThinnerThanColumnsAreApartAreWarnedOf) {
   EXPECT_EQ(told("-1 1.2e-3 6e-3", "1 2.8e-3 9e-3").find("tools stop points only"), std::string::npos);
 }
 
+// Nodes of tetrahedra are 1 mm apart in all directions: by the moments of their cells it would be 1.1 to 1.8 mm.
+TEST(Tools, ThatAreThickerThanNodesOfTetrahedraAreApartAreNotWarnedOf) {
+  const RunFolder folder;
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "tetrahedra.g", in_tetrahedra(Lattice().mesh())); });
+  Parts parts;
+  parts.mesh_file = "tetrahedra.g", parts.points = "Nodes";
+  parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key("Fracture Energy", "1e4"));
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                      key("Damage Model", "brittle"));
+  const auto told = [&](const std::string& upper_x) {
+    parts.conditions = section("tool", key("Type", "Rigid Box") + box("1.95e-3 -1 6e-3", upper_x + " 1 9e-3"));
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  expect_told(told("3.44e-3"), {"less than 1.5 spacings of block 'bar' (0.001 m each)"});
+  const std::string of_thick_tool = told("3.46e-3");
+  EXPECT_EQ(of_thick_tool.find("tools stop points only"), std::string::npos) << of_thick_tool;
+  EXPECT_EQ(of_thick_tool.find("its cells are no cubes"), std::string::npos) << of_thick_tool;
+}
+
 // The lowest cells end 2 mm above the floor, which the bar reaches at 20 µs with 100 m/s: in the 43rd of 100 parts.
 TEST(Tools, ThatAreApartFromAllPointsAreToldOf) {
   const std::string floor = key("Point", "0 0 -2e-3") + key("Normal", "0 0 1");
