@@ -254,9 +254,11 @@ double depth_below(const Near<Piece>& pieces, const Vector& X, int body, double 
 }
 
 // Extent of a point's cell beyond the point toward the surface of its body, m; the mean over all directions if the
-// surface has no direction, as in a thin plate.
+// surface has no direction, as in a thin plate. 0 for a node: those at a surface lie on it, whether or not anything
+// else in the deck needs their cells.
 double reach_to_surface(const Domain& domain, int i) {
   const PointCloud& cloud = domain.cloud;
+  if (cloud.at == PointsAt::nodes) return 0;
   if (cloud.shapes.empty()) return reach_of_cell(cloud, domain.volume(i), i, Vector::Zero());
   const Vector& surface = cloud.shapes[i].surface;
   const double area = surface.norm();

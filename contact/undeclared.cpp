@@ -51,10 +51,10 @@ Vector inward_at(const Domain& domain, int i) {
   return sum;
 }
 
-// The shortest edge of a point's cell; without cells the nearest neighbor tells.
+// The shortest edge of a point's cell; where edges are not known, the nearest neighbor tells.
 double edge_of(const Domain& domain, int i) {
   double edge = edges_of_cell(domain, i).shortest;
-  if (!domain.cloud.shapes.empty()) return edge;
+  if (has_known_edges(domain, i)) return edge;
   domain.families.for_each(i,
                            [&](int j) { edge = std::min(edge, (domain.reference(j) - domain.reference(i)).norm()); });
   return edge;

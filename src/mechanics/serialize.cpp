@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,10 @@ double mark_of(const Body& body, const Word& word) {
 }
 
 // By their names, which conditions use; the order of the sets is free.
-double mark_of_sets(const Body& body) {
-  const std::vector<std::uint64_t> names = words_of(body.domain.cloud.set_names);
+double mark_of_sets(const Body& body, const std::set<std::string>& without) {
+  const std::vector<std::string>& all = body.domain.cloud.set_names;
+  std::vector<std::uint64_t> names = words_of(all);
+  for (std::size_t k = 0; k < all.size(); ++k) names[k] = without.contains(all[k]) ? 0 : names[k];
   return mark_of(body, [&](int i) {
     std::uint64_t sum = 0;
     for (std::size_t k = 0; k < names.size(); ++k) sum += (body.domain.cloud.sets[i] >> k & 1) * names[k];
@@ -85,10 +88,6 @@ double mark_of_cells(const Body& body) {
   });
 }
 
-// Start From accepts any node sets and shapes: its deck has its own node sets, and may need shapes that the first did
-// not.
-enum class Sets { same, any };
-
 // A check sum of data that the checkpoint has no column for, and the message if the checkpoint has another sum.
 struct Mark {
   const char* name;
@@ -100,18 +99,25 @@ struct Mark {
   bool differs() const { return kept != own && !(may_be_none && (kept == 0 || own == 0)); }
 };
 
-std::vector<Mark> marks_of(const Body& body, Sets which) {
-  std::vector<Mark> marks = {
+// Either run may need shapes that the other does not, as profiles of the history do: then there is none to compare.
+std::vector<Mark> marks_of(const Body& body) {
+  return {
       {"blocks", mark_of_blocks(body), "in blocks of other names"},
       {"bonds", mark_of_bonds(body), "bonded to others (by a mesh of Bond Filters, or the nodes that elements share)"},
-      {"cells", mark_of_cells(body), "of other shapes", which == Sets::any}};
-  if (which == Sets::same) marks.push_back({"node_sets", mark_of_sets(body), "in other node sets"});
-  return marks;
+      {"cells", mark_of_cells(body), "of other shapes", true}};
+}
+
+// Collective. `others`: what the points are that they were not.
+void expect_same_mesh(const Body& body, const std::vector<std::string>& others) {
+  raise_together(body.domain.communicator, others.empty()
+                                               ? ""
+                                               : "the mesh is not the one with which the run began: points are " +
+                                                     joined(others) + "; a run can go on with the same one only");
 }
 
 // Collective. Compares the mesh with that of the checkpoint; nothing of it is restored.
-void compare_reference(Archive& archive, const Body& body, Sets which) {
-  std::vector<Mark> marks = marks_of(body, which);
+void compare_reference(Archive& archive, const Body& body) {
+  std::vector<Mark> marks = marks_of(body);
   for (Mark& mark : marks) archive.number(mark.name, mark.kept);
   std::vector<Eigen::Array4d> kept;
   for (int i = 0; i < body.owned(); ++i) kept.push_back(body.domain.sites[i].reference);
@@ -123,10 +129,7 @@ void compare_reference(Archive& archive, const Body& body, Sets which) {
   for (const Mark& mark : marks) {
     if (mark.differs()) others.push_back(mark.text);
   }
-  raise_together(body.domain.communicator, others.empty()
-                                               ? ""
-                                               : "the mesh is not the one with which the run began: points are " +
-                                                     joined(others) + "; a run can go on with the same one only");
+  expect_same_mesh(body, others);
 }
 
 Places places_of(const MaterialBlock& block) {
@@ -142,9 +145,7 @@ std::vector<std::int64_t> ids_of(const Body& body, const std::vector<int>& point
   return ids;
 }
 
-namespace {
-
-void serialize(Archive& archive, Body& body, Sets sets) {
+void serialize(Archive& archive, Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     archive.number("rigid_motion_" + std::to_string(b), body.blocks[b].in_rigid_motion);
     MaterialBlock& block = body.blocks[b];
@@ -153,7 +154,7 @@ void serialize(Archive& archive, Body& body, Sets sets) {
   }
   const auto owned = body.domain.cloud.ids.begin() + body.owned();
   archive.points("all points", {body.domain.cloud.ids.begin(), owned});
-  compare_reference(archive, body, sets);
+  compare_reference(archive, body);
   archive.field("position", 3, [&](std::size_t i, int c) -> double& { return body.domain.sites[i].current[c]; });
   body.fields.serialize(archive);
   Vector stretch = body.domain.halo.stretch();
@@ -166,9 +167,10 @@ void serialize(Archive& archive, Body& body, Sets sets) {
   refit_flowed(body);
 }
 
-}  // namespace
-
-void serialize(Archive& archive, Body& body) { serialize(archive, body, Sets::same); }
-void serialize_for_start(Archive& archive, Body& body) { serialize(archive, body, Sets::any); }
+void serialize_sets(Archive& archive, const Body& body, const std::set<std::string>& without) {
+  Mark mark = {"node_sets", mark_of_sets(body, without), "in other node sets"};
+  archive.number(mark.name, mark.kept);
+  expect_same_mesh(body, mark.differs() ? std::vector<std::string>{mark.text} : std::vector<std::string>());
+}
 
 }  // namespace strut

@@ -2,11 +2,13 @@
 
 #include <csignal>
 #include <iostream>
+#include <set>
 
 #include "base/errors.hpp"
 #include "base/text.hpp"
 #include "base/timing.hpp"
 #include "checkpoint/checkpoint.hpp"
+#include "mechanics/serialize.hpp"
 #include "output/variables.hpp"
 #include "run/balance.hpp"
 #include "run/input.hpp"
@@ -47,6 +49,15 @@ Observer observer(const deck::Deck& deck, const Communicator& communicator, cons
   Observer observer{tell, {}, [&early_end] { return early_end.wanted(); }};
   if (deck.solver.verbose) observer.iterations = tell;
   return observer;
+}
+
+// The sets that only the history has, which may begin or end with any part of a run.
+std::set<std::string> names_of_probes(const deck::Deck& deck) {
+  std::set<std::string> names;
+  for (const deck::NodeSet& set : deck.node_sets) {
+    if (set.nearest && !set.numbers) names.insert(set.name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -164,6 +175,7 @@ void Run::Parts::open(Start start) {
   monitor.emplace(deck.watch, deck.solver.final_time - deck.solver.initial_time, scene->body, tell);
   checkpoint.emplace(deck, communicator, [this](Archive& archive) {
     with_solver([&](auto& solver) { solver.serialize(archive); });
+    serialize_sets(archive, scene->body, names_of_probes(deck));
     monitor->serialize(archive);
     monitor->serialize_tools(archive, scene->tools.size());
     balance.serialize(archive, scene->body);

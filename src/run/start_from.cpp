@@ -167,7 +167,7 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   const auto pass = [&](Archive archive, double& last_step) {
     libraries.serialize(archive);
     archive.number("dt", last_step);
-    serialize_for_start(archive, body);
+    serialize(archive, body);  // the node sets are those of this deck
     if (changes_.same_conditions) serialize_reaches(archive, scene.conditions);
     if (scene.fracture) scene.fracture->serialize(archive, body);
     if (!goes_on_ && changes_.same_contact) scene.contact.serialize(archive, kinematics, 0);

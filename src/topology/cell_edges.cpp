@@ -10,8 +10,10 @@ bool has_known_edges(const Domain& domain, int i) {
   constexpr std::size_t corners_of_tetrahedron = 4;
   const PointCloud& cloud = domain.cloud;
   if (cloud.shapes.empty()) return false;
-  if (cloud.at == PointsAt::nodes) return true;
   const double whole = std::pow(cloud.spacings[i], 3);
+  // A node has an eighth of each hexahedron around it, and of a tetrahedron a quarter, of which six make a cube.
+  if (cloud.at == PointsAt::nodes)
+    return domain.volume(i) > static_cast<double>(cloud.shared_nodes[i].size()) * whole / 16;
   return cloud.shared_nodes[i].size() > corners_of_tetrahedron && std::abs(domain.volume(i) - whole) < alike * whole;
 }
 

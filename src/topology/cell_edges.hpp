@@ -5,7 +5,8 @@
 
 namespace strut {
 
-// True if the cell of an owned point has known edges: it is a node's, or a hexahedron that is all material.
+// True if the cell of an owned point has known edges: it is a hexahedron that is all material, or that of a node of
+// hexahedra. The moments of tetrahedra and their nodes do not tell how far apart points are.
 bool has_known_edges(const Domain& domain, int i);
 
 // The edge of the cell of an owned point along a direction of unit length, m: of a box along its axes exact. A node at

@@ -14,4 +14,19 @@ inline void write_stretched(const RunFolder& folder, const Lattice& lattice, con
   run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
 }
 
+// Each hexahedron as six tetrahedra around one diagonal, the same on opposite faces.
+inline io::Mesh in_tetrahedra(io::Mesh mesh) {
+  constexpr int corners[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+  for (io::Mesh::Block& block : mesh.blocks) {
+    std::vector<int> nodes;
+    for (std::size_t e = 0; e < block.elements(); ++e) {
+      for (const auto& tetrahedron : corners) {
+        for (const int corner : tetrahedron) nodes.push_back(block.nodes[8 * e + corner]);
+      }
+    }
+    block.type = "TET4", block.nodes = nodes;
+  }
+  return mesh;
+}
+
 }  // namespace strut::regression

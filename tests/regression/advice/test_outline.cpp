@@ -1,7 +1,6 @@
 // The lines of a run about its scene before it begins: they reveal wrong units, and count the pieces.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -372,21 +371,10 @@ TEST(Tools, ThatAreInsideOfABodyAtTheStartAreToldOf) {
   EXPECT_EQ(told_of(parts).find("WARNING"), std::string::npos);
 }
 
-// The reaches of tetrahedra are estimates, larger than from the center to a face. Six share a diagonal of each cube.
+// The reaches of tetrahedra are estimates, larger than from the center to a face.
 TEST(Tools, ThatTouchTetrahedraStandInNone) {
-  io::Mesh mesh = Lattice().mesh();
-  constexpr std::array<std::array<int, 2>, 6> others{{{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}}};
-  for (io::Mesh::Block& block : mesh.blocks) {
-    const std::vector<int> corners = std::exchange(block.nodes, {});
-    block.type = "TET4";
-    for (std::size_t n = 0; n < corners.size(); n += 8) {
-      for (const auto& [a, b] : others) {
-        for (const int corner : {0, a, b, 6}) block.nodes.push_back(corners[n + corner]);
-      }
-    }
-  }
   const RunFolder folder;
-  run_on_root(folder.world, [&] { io::write_mesh(folder / "tetrahedra.g", mesh); });
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "tetrahedra.g", in_tetrahedra(Lattice().mesh())); });
   Parts parts;
   parts.mesh_file = "tetrahedra.g";
   parts.conditions = plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1");
@@ -440,6 +428,25 @@ TEST(Tools, ThatAreThinnerThanColumnsAreApartAreWarnedOf) {
               {"the tool 'tool' is 0.0034 m wide along x, less than 1.5 spacings of block 'bar' (0.004 m each)"});
   EXPECT_EQ(told("4e-3 -1 6e-3", "11e-3 1 9e-3").find("tools stop points only"), std::string::npos);
   EXPECT_EQ(told("-1 1.2e-3 6e-3", "1 2.8e-3 9e-3").find("tools stop points only"), std::string::npos);
+}
+
+// Nodes of tetrahedra are 1 mm apart in all directions: by the moments of their cells it would be 1.1 to 1.8 mm.
+TEST(Tools, ThatAreThickerThanNodesOfTetrahedraAreApartAreNotWarnedOf) {
+  const RunFolder folder;
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "tetrahedra.g", in_tetrahedra(Lattice().mesh())); });
+  Parts parts;
+  parts.mesh_file = "tetrahedra.g", parts.points = "Nodes";
+  parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key("Fracture Energy", "1e4"));
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                      key("Damage Model", "brittle"));
+  const auto told = [&](const std::string& upper_x) {
+    parts.conditions = section("tool", key("Type", "Rigid Box") + box("1.95e-3 -1 6e-3", upper_x + " 1 9e-3"));
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  expect_told(told("3.44e-3"), {"less than 1.5 spacings of block 'bar' (0.001 m each)"});
+  const std::string of_thick_tool = told("3.46e-3");
+  EXPECT_EQ(of_thick_tool.find("tools stop points only"), std::string::npos) << of_thick_tool;
+  EXPECT_EQ(of_thick_tool.find("its cells are no cubes"), std::string::npos) << of_thick_tool;
 }
 
 // The lowest cells end 2 mm above the floor, which the bar reaches at 20 µs with 100 m/s: in the 43rd of 100 parts.

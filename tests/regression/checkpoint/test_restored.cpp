@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/errors.hpp"
 #include "output/observables.hpp"
 #include "regression/scenes.hpp"
 #include "run/simulation.hpp"
@@ -88,6 +89,37 @@ TEST(Continued, RowAndFrameAtTheCheckpointStayWhenTimesOfOutputChange) {
       EXPECT_EQ(std::ranges::count_if(times, [](double t) { return std::abs(t - 4e-6) < 1e-12; }), 1) << before;
     }
   }
+}
+
+// Profiles need the shapes of cells, which the run has not had before, and probes are node sets.
+TEST(Continued, HistoryOfAProfileAndAProbeMayBeginAndEnd) {
+  const RunFolder folder;
+  Parts parts;
+  parts.verlet = key("Fixed dt", "1e-7");
+  const std::string solver = "<ParameterList name=\"Solver\">",
+                    restart = section("Restart", key("Filename", (folder / "run.restart").string()));
+  const std::string history =
+      key("Filename", (folder / "run.csv").string()) +
+      section("Variables", key("Mean_Coordinate_Z(slices)", "true") + key("Displacement_Z(tip)", "true")) +
+      section("Profiles", section("slices", key("Layers", "3"))) +
+      section("Probes", section("tip", key("Point", "2e-3 2e-3 6e-3")));
+  const auto go_on = [&](const std::string& with, const std::string& end, Start start) {
+    parts.history = with, parts.times = key("Final Time", end);
+    std::string told;
+    testing::internal::CaptureStdout();
+    try {
+      run(folder.write("deck.xml", changed(parts.text(), solver, restart + solver)), folder.world, start);
+    } catch (const Error& error) {
+      told = error.what();
+    }
+    testing::internal::GetCapturedStdout();
+    EXPECT_EQ(told, "") << end;
+    folder.world.barrier();
+  };
+  go_on("", "1e-6", Start::anew);
+  go_on(history, "2e-6", Start::continued);
+  EXPECT_NEAR(read_history(folder / "run.csv").at("Time").back(), 2e-6, 1e-12);
+  go_on("", "3e-6", Start::continued);
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "contact/interpenetration.hpp"
-#include "regression/bodies.hpp"
 #include "regression/checkpoints.hpp"
+#include "regression/stretched.hpp"
 #include "run/simulation.hpp"
 
 namespace strut::regression {
@@ -130,20 +130,6 @@ INSTANTIATE_TEST_SUITE_P(
              metal("Elastic Plastic Correspondence", yields + key("Formulation", "Quadratic Correspondence")),
              key("Horizon Factor", "1.75")}),
     [](const auto& info) { return info.param.name; });
-
-// Each hexahedron as six tetrahedra around one diagonal, the same on opposite faces.
-io::Mesh in_tetrahedra(io::Mesh mesh) {
-  constexpr int corners[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
-  io::Mesh::Block& bar = mesh.blocks[0];
-  std::vector<int> nodes;
-  for (std::size_t e = 0; e < bar.elements(); ++e) {
-    for (const auto& tetrahedron : corners) {
-      for (const int corner : tetrahedron) nodes.push_back(bar.nodes[8 * e + corner]);
-    }
-  }
-  bar.type = "TET4", bar.nodes = nodes;
-  return mesh;
-}
 
 class Notch : public testing::TestWithParam<bool> {};
 

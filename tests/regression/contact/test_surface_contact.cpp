@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "mesh/cells.hpp"
-#include "regression/bodies.hpp"
+#include "regression/stretched.hpp"
 
 namespace strut::regression {
 namespace {
@@ -273,6 +273,37 @@ TEST(SurfaceContact, BallOfVoxelsRollsDownASlope) {
   EXPECT_NEAR(rolling, height, 0.1 * h);
   EXPECT_NEAR(acceleration, 5.0 / 7 * along_it, 0.05 * 5.0 / 7 * along_it);
   EXPECT_LT(end.balance_error, 1e-4);
+}
+
+// Nodes lie on the surface: a gap of 0.1 mm closes at 5 µs with 20 m/s, of tetrahedra, too, and whether the cells of
+// nodes are needed, by a tool that is far away or the material, or not.
+TEST(SurfaceContact, NodesOfTetrahedraTouchAtTheSurface) {
+  io::Mesh mesh = Lattice{4, 4, 3}.mesh();
+  const std::vector<Vector> below = mesh.nodes;
+  for (const Vector& X : below) mesh.nodes.push_back(X + Vector(0.3 * h, 0.2 * h, 3.1 * h));
+  io::Mesh::Block above{"block_2", "HEX8", mesh.blocks[0].nodes, {}};
+  for (int& node : above.nodes) node += static_cast<int>(below.size());
+  mesh.blocks[0].name = "block_1";
+  mesh.blocks.push_back(above);
+  const RunFolder folder;
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "two.g", in_tetrahedra(mesh)); });
+  Parts plain = thrown_block(surface_contact({{"block_1", "block_2"}}));
+  plain.mesh_type = "Exodus", plain.mesh_file = "two.g", plain.points = "Nodes";
+  plain.conditions = along("flight", "Initial Velocity", "block_2", "z", "-20");
+  plain.verlet = key("Fixed dt", "1e-7");
+  Parts with_tool = plain, quadratic = plain;
+  with_tool.conditions += plane("far", "Rigid Plane", "all", "0 0 -5e-3", "0 0 1");
+  quadratic.materials = changed(copper(), key("Density", "8930"),
+                                key("Density", "8930") + key("Formulation", "Quadratic Correspondence"));
+  for (Parts parts : {plain, with_tool, quadratic}) {
+    for (const auto& [end, touches] : {std::pair("4.5e-6", false), {"6.5e-6", true}}) {
+      parts.times = key("Final Time", end);
+      Simulation run(folder, parts);
+      run.go([](const Ledger&) {});
+      const Motion last = motion(run);
+      EXPECT_EQ(last.momentum[2] / last.mass > -20 * (1 - 1e-9), touches) << parts.conditions << parts.materials << end;
+    }
+  }
 }
 
 // Bodies that have a common face from the start: no pressure, and a blow crosses it at once.

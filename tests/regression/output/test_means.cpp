@@ -72,6 +72,24 @@ TEST(Means, OfLayersOfFlatCells) {
   }
 }
 
+// Nodes at z = 2, 3, 4 and 5 mm: a tool far away, for which cells are read, is nothing to the layers between them.
+TEST(Means, OfLayersOfNodesAreTheSameBesideATool) {
+  const RunFolder folder;
+  Parts parts;
+  parts.points = "Nodes";
+  parts.node_sets = key("middle", "abs(z - 3.5e-3) &lt; 1.6e-3");
+  parts.times = key("Final Time", "1e-8");
+  for (const std::string& tool : {std::string(), plane("far", "Rigid Plane", "all", "0 0 -5e-3", "0 0 1")}) {
+    parts.conditions = tool;
+    const Table table = history_of(folder, parts, {"Mean_Coordinate_Z(slices)"},
+                                   section("slices", key("Layers", "3") + key("Node Set", "middle")));
+    for (const auto& [column, place] : {std::pair("1", 2.0), {"2", 3.0}, {"3", 4.5}}) {
+      const std::string name = std::string("Mean_Coordinate_Z(slices ") + column + ")";
+      EXPECT_NEAR(table.at(name).front(), place * h, 1e-16) << tool << column;
+    }
+  }
+}
+
 // Hot metal on an elastic plate, which has no temperature: its zeros are no temperatures.
 TEST(Means, LeaveOutPointsThatHaveNoTemperature) {
   const RunFolder folder({.plate_layers = 3});

@@ -508,6 +508,19 @@ TEST(Monitor, FacesOfFlatCellsThatOnlyComeNearDoNotPass) {
   EXPECT_TRUE(passes_through(folder, parts, "160e-6"));
 }
 
+// Flat tetrahedra whose centers are one above the other, 0.25 mm from the faces: a tool far away, for which the edges
+// of cells are read, is nothing to them.
+TEST(Monitor, FacesOfFlatTetrahedraThatOnlyComeNearDoNotPass) {
+  const RunFolder folder;
+  Parts parts = thrown_nodes(folder, -0.25e-3, 2e-3, "z", "", 4);
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "two.g", in_tetrahedra(io::read_mesh(folder / "two.g"))); });
+  parts.points = "Elements";
+  for (int block = 0; block < 2; ++block) parts.blocks = changed(parts.blocks, "2.01e-3", "4.1e-3");
+  EXPECT_FALSE(passes_through(folder, parts, "95e-6"));
+  parts.conditions += plane("far", "Rigid Plane", "all", "0 0 -5e-3", "0 0 1");
+  EXPECT_FALSE(passes_through(folder, parts, "95e-6"));
+}
+
 // A layer that is drawn through the others.
 TEST(Monitor, InvertedPointsGoOnAsMassesWhereTheDeckSaysSo) {
   const RunFolder folder;
