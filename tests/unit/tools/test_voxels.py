@@ -733,6 +733,11 @@ class Formats(ToolTest):
         os.remove(self.path("slices/s2.tif"))
         self.assertIn("none is numbered from 2 to 2, between s1.tif and s3.tif", self.works("voxels", self.path("slices"), "--size", 1)[0]["image"])
 
+    def test_slices_that_are_numbered_downwards_may_leave_some_out_too(self):
+        self.assertIn("none is numbered from 7 to 6, between b8.tif and c5.tif", images.gap_in(["a9.tif", "b8.tif", "c5.tif", "d4.tif"]))
+        for whole in (["a9.tif", "b8.tif", "c7.tif"], ["a3.tif", "b2.tif", "c1.tif", "d4.tif", "e3.tif"]):  # the second begins anew
+            self.assertEqual(images.gap_in(whole), "")
+
     def test_vtk(self):
         from vtkmodules.vtkIOImage import vtkMetaImageWriter
         from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
