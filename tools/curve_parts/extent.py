@@ -9,8 +9,8 @@ SOLIDS = ("HEX", "TET")
 NUMBERS = ["centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "moment_zz"]
 
 
-def size_of(path, block):
-    """Edges (m) of the box around the elements of a block, or of all; None if the mesh does not contain it."""
+def box_in(path, block):
+    """Both corners (m) of the box around the elements of a block, or of all; None if the mesh does not contain it."""
     if not os.path.isfile(path):
         return None
     try:
@@ -20,7 +20,13 @@ def size_of(path, block):
         return None
     if not boxes or any(box is None for box in boxes):
         return None
-    return np.max([high for _, high in boxes], axis=0) - np.min([low for low, _ in boxes], axis=0)
+    return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
+
+
+def size_of(path, block):
+    """The edges of this box, m."""
+    box = box_in(path, block)
+    return None if box is None else box[1] - box[0]
 
 
 def nodes_of(file, number):
