@@ -27,12 +27,18 @@ def edge_of(path, block, axis):
     return found and np.median(np.concatenate([edges for edges, *_ in found])[:, axis])
 
 
-def size_of(path, block):
-    """Edges (m) of the box around the elements of a block, or of all; None if the mesh does not contain it."""
+def box_in(path, block):
+    """Both corners (m) of the box around the elements of a block, or of all; None if the mesh does not contain it."""
     boxes = of_blocks(path, block, box_of)
     if boxes is None:
         return None
-    return np.max([high for _, high in boxes], axis=0) - np.min([low for low, _ in boxes], axis=0)
+    return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
+
+
+def size_of(path, block):
+    """The edges of this box, m."""
+    box = box_in(path, block)
+    return None if box is None else box[1] - box[0]
 
 
 def nodes_of(file, number):

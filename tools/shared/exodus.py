@@ -55,6 +55,11 @@ def check(path, blocks, sets):
         fail(f"{path}: {len(sets)} node sets, at most {MOST_SETS} are supported")
     if not os.path.exists(path):
         return
+    # A rename would replace a device, and a file that may not be written.
+    if not os.path.isfile(path):
+        fail(f"'{path}' is a folder, a pipe or a device; expected a file that may be replaced")
+    if not os.access(path, os.W_OK):
+        fail(f"'{path}' is there and may not be written; expected another name")
     with open(path, "rb") as file:
         head = file.read(10**6)
     if head.strip(b"\0") and not (head.startswith(b"CDF") and TITLE.encode() in head):
@@ -74,7 +79,7 @@ def write_mesh(path, nodes, blocks, sets):
     import numpy as np
 
     whole = os.path.realpath(path)
-    part = whole + ".part"
+    part = f"{whole}.{os.getpid()}.part"  # of this process: another one may write the same mesh
     for file in (path, part):
         check(file, blocks, sets)
     largest = max([8 * len(nodes), *(4 * elements.size for _, _, elements, _ in blocks)])

@@ -195,8 +195,8 @@ def slices(names, where):
 
 
 def gap_in(names):
-    """Words on the first place where the numbers in the names of slices, which rise by equal steps, leave some out: the body
-    is shorter by those."""
+    """Words on the first place where the numbers in the names of slices, which rise or fall by equal steps, leave some out:
+    the body is shorter by those."""
     numbers = [[int(n) for n in re.findall(r"\d+", os.path.basename(name))] for name in names]
     if len({len(found) for found in numbers}) > 1:
         return ""
@@ -206,7 +206,7 @@ def gap_in(names):
         return ""
     (at, step), = ((i, n) for i, n in enumerate(usual) if n)
     for i, found in enumerate(steps):
-        if found[at] > step and not any(found[:at] + found[at + 1:]):
+        if found[at] / step > 1 and not any(found[:at] + found[at + 1:]):
             return (f" (WARNING: none is numbered from {numbers[i][at] + step} to {numbers[i + 1][at] - step}, between "
                     f"{os.path.basename(names[i])} and {os.path.basename(names[i + 1])}: they are taken as neighbors)")
     return ""
