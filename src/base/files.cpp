@@ -1,6 +1,7 @@
 #include "base/files.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -93,6 +94,16 @@ Known known(FileKind kind) {
   return {"file", [](const std::string&) { return true; }};
 }
 
+// True if the shell has put standard output or the errors there: "> FILE", whatever its name.
+bool takes_terminal_output(const fs::path& file) {
+  struct stat named = {}, open = {};
+  if (::stat(file.c_str(), &named) != 0) return false;
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fstat(stream, &open) == 0 && open.st_dev == named.st_dev && open.st_ino == named.st_ino) return true;
+  }
+  return false;
+}
+
 // The reason why the system would refuse to write it, or nothing.
 std::string refusal_of_system(const fs::path& file) {
   const fs::path folder = folder_of(file);
@@ -149,6 +160,8 @@ std::string obstacle(const fs::path& file, FileKind kind) {
   if (there && !regular && !takes_lines)
     return name + " is a folder, a pipe or a device; expected a file that may be replaced";
   if (const std::string why = refusal_of_system(file); !why.empty()) return name + ": cannot create it: " + why;
+  if (regular && takes_terminal_output(file))
+    return name + " is the file that standard output or standard error goes to; expected another";
   if (!regular || is_of_kind(file, kind)) return "";
   const std::string head = head_of(file);
   const std::string what = head.starts_with("\x89HDF")  ? ", in the format netCDF-4 (was it converted?),"

@@ -1,6 +1,7 @@
 #include "base/math/table_files.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -50,6 +51,17 @@ std::vector<std::string_view> cells(std::string_view line) {
   return found;
 }
 
+// Of any spelling (1.D0, "1", nan): such a word is none of a header.
+bool seems_a_number(std::string_view word) {
+  for (const std::string_view before : {"\"", "'", "+", "-", "−"}) {
+    if (word.starts_with(before)) word.remove_prefix(before.size());
+  }
+  if (!word.empty() && std::string_view("0123456789.").find(word[0]) != std::string_view::npos) return true;
+  std::string lower(word);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower == "nan" || lower == "inf" || lower == "infinity";
+}
+
 }  // namespace
 
 std::vector<std::string> table_files(const std::string& expression) {
@@ -83,12 +95,13 @@ std::string numbers_in_table(const fs::path& file) {
   bool has_header = false;
   int row = 0;
   for (std::string line; std::getline(stream, line);) {
-    const std::string_view content = trimmed(++row == 1 ? without_mark(line) : line);
-    if (content.empty() || content[0] == '#') continue;
+    const std::string_view all = ++row == 1 ? without_mark(line) : line,
+                           content = trimmed(all.substr(0, all.find('#')));
+    if (content.empty()) continue;
     const std::vector<std::string_view> words = cells(content);
     const std::string where = file.string() + ", line " + std::to_string(row) + ": ";
     const auto place = to_finite(words[0]), value = words.size() == 2 ? to_finite(words[1]) : std::nullopt;
-    const bool is_header = !before && !has_header && std::none_of(words.begin(), words.end(), to_finite);
+    const bool is_header = !before && !has_header && std::ranges::none_of(words, seems_a_number);
     if (has_header |= is_header; is_header) continue;
     if (!place || !value) throw Error(where + "'" + std::string(content.substr(0, 60)) + "'" + expected);
     if (before && !(*place > *before))

@@ -258,7 +258,8 @@ class TableFiles : public testing::Test {
 TEST_F(TableFiles, AreReadAsInstrumentsWriteThem) {
   for (const char* content :
        {"0,0\n1e-3,-5.25\n", "\xef\xbb\xbf# of a press\r\nTime,Force\r\n\r\n+0, 0\r\n0.001 , -5.25",
-        "t / s;F / N\n0;0\n# a pause\n1E-3;-525e-2\n", "0 0\n\t1e-3 \t -5.25"}) {
+        "Time,Force # of a press\n0,0 # a\n1e-3,-5.25# b\n", "t / s;F / N\n0;0\n# a pause\n1E-3;-525e-2\n",
+        "0 0\n\t1e-3 \t -5.25"}) {
     EXPECT_EQ(numbers(content), "0, 0, 0.001, -5.25") << content;
   }
   EXPECT_EQ(numbers("-1 0.1\n0 0.30000000000000004"), "-1, 0.1, 0, 0.30000000000000004");  // every bit
@@ -268,7 +269,9 @@ TEST_F(TableFiles, AreRefusedByFileAndLine) {
   expect_problem("", "pull" + std::to_string(world.rank()) + ".csv has no row; expected two numbers");
   expect_problem("Time,Force\n# none\n", "has no row");
   expect_problem("Time,Force\ns,N\n0,0\n", "line 2: 's,N'; expected two numbers");  // two headers
-  expect_problem("nan,0\n1,1\n", "line 1: 'nan,0'");                                // no header: it has a number
+  for (const std::string row : {"0.D0 0.D0", "-1d0;+0D0", "nan nan", "Inf,NaN", "\"0\",\"500\"", "−1 −2"})
+    expect_problem(row + "\n0 0\n1 1000\n", "line 1: '" + row + "'; expected two numbers");
+  expect_problem("nan,0\n1,1\n", "line 1: 'nan,0'");  // no header: it has a number
   expect_problem("0,0\n1,x\n", "line 2: '1,x'; expected two numbers, the place (the time, s) and the value");
   expect_problem("0,0\n1,inf\n", "line 2");
   expect_problem("0,0\n1,2,3\n", "line 2: '1,2,3'");

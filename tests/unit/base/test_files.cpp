@@ -1,6 +1,8 @@
 // Which names are of one file, and which file may be replaced by which.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <fstream>
@@ -98,6 +100,25 @@ TEST_F(Files, AFileIsReplacedByOneOfItsKindOnly) {
   EXPECT_NE(obstacle(folder / "no/file", FileKind::log).find("there is no folder"), std::string::npos);
   EXPECT_EQ(obstacle("/dev/null", FileKind::log), "") << "loses nothing";
   EXPECT_NE(obstacle("/dev/null", FileKind::result), "");
+}
+
+// The lines of the terminal would stand between those of the history.
+TEST_F(Files, WhereTheTerminalsOutputGoesNothingElseIsWritten) {
+  const fs::path file = write("history.csv", "");
+  fs::create_symlink("history.csv", folder / "link");
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+    EXPECT_EQ(obstacle(file, FileKind::history), "");
+    const int terminal = ::dup(stream), there = ::open(file.c_str(), O_WRONLY);
+    ::dup2(there, stream);
+    const std::array said{obstacle(file, FileKind::history), obstacle(folder / "link", FileKind::unchecked),
+                          obstacle("/dev/fd/" + std::to_string(stream), FileKind::log)};
+    const std::string other = obstacle(folder / "other.csv", FileKind::history);
+    ::dup2(terminal, stream);
+    ::close(terminal), ::close(there);
+    for (const std::string& one : said)
+      EXPECT_NE(one.find("standard output or standard error"), std::string::npos) << one;
+    EXPECT_EQ(other, "");
+  }
 }
 
 // A pipe without a reader or a writer would be waited for without an end.
