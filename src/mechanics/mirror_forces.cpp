@@ -26,15 +26,16 @@ struct OfImages : bonds::NearPoint {
 
 Vector to_vector(const small::Vector3<double>& v) { return {v.c[0], v.c[1], v.c[2]}; }
 
-// The force density (N/m³) of some bonds of a point by all formulations; `own`: includes the point's own state.
-template <class Family, class Weight>
-Vector force_of(const Body& body, const Family& family, bool own, Weight weight) {
+// The force density (N/m³) of some bonds of a point by all formulations. `due`: those of the family whose far ends act
+// now. `own`: the point's own state acts now, on all bonds of the family.
+template <class Family, class Due, class Weight>
+Vector force_of(const Body& body, const Family& family, const Due& due, bool own, Weight weight) {
   const Site* sites = body.domain.sites.data();
   const ForceStates& states = body.force_states;
   const int i = family.i;
   Vector force = Vector::Zero();
   if (!states.tensors.empty()) {
-    force += to_vector(bonds::far_force<true>(family, sites, states.tensors.data(), weight));
+    force += to_vector(bonds::far_force<true>(due, sites, states.tensors.data(), weight));
     Vector moment = Vector::Zero(), pull = Vector::Zero();
     bonds::over(family, sites, weight, [&](int j, double w, const auto& xi, double) {
       moment += w * to_vector(xi);
@@ -45,16 +46,15 @@ Vector force_of(const Body& body, const Family& family, bool own, Weight weight)
   if (own && !states.gradients.empty()) {
     for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) {
       if (body.block_of(i).material.stabilization.index() != kind) return;
-      force += to_vector(bonds::residual<S>(kind, family, sites, states.gradients.data(), weight).force);
+      force += to_vector(bonds::residual<S>(kind, due, sites, states.gradients.data(), weight).force);
     });
   }
   if (!states.scalars.empty()) {
-    force +=
-        to_vector(bonds::ordinary_force(family, sites, states.scalars.data(), weight, bonds::OfPlaces<Family>(family)));
+    force += to_vector(bonds::ordinary_force(due, sites, states.scalars.data(), weight, bonds::OfPlaces<Due>(due)));
   }
   if (!states.quadratics.empty()) {
     const Eigen::Array4d* multipliers = body.fits->multipliers();
-    force += to_vector(bonds::quadratic_far_force(family, sites, multipliers, states.quadratics.data(), weight));
+    force += to_vector(bonds::quadratic_far_force(due, sites, multipliers, states.quadratics.data(), weight));
     if (own && body.block_of(i).is_quadratic()) {
       QuadraticFit fit;
       bonds::over(family, sites, weight, [&](int j, double w, const auto& xi, double) {
@@ -83,15 +83,17 @@ std::vector<int> moving_points(const Body& body, const std::vector<int>* moved, 
   return points;
 }
 
-// The force of the images that `picks` selects on some points, N. Only points that are due at `level` act.
+// The force through the bonds to the images that `picks` selects on some points, N. Only ends that are due at `level`
+// act: an image that is not is still pulled by the point.
 template <class Picks>
 Vector image_force(const Body& body, const std::vector<int>& points, int level, const Picks& picks) {
   const auto acts = [&](int j) { return picks(j) && body.is_due(j, level); };
   Vector sum = Vector::Zero();
   bonds::with_influence(body.influence, [&](auto weight) {
     for (const int i : points) {
-      const OfImages<decltype(acts)> family{{i}, body.domain.families, acts};
-      sum += body.domain.volume(i) * force_of(body, family, body.is_due(i, level), weight);
+      const OfImages<Picks> family{{i}, body.domain.families, picks};
+      const OfImages<decltype(acts)> due{{i}, body.domain.families, acts};
+      sum += body.domain.volume(i) * force_of(body, family, due, body.is_due(i, level), weight);
     }
   });
   return sum;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "regression/bodies.hpp"
+#include "regression/stiff_ended_bar.hpp"
 #include "run/simulation.hpp"
 
 namespace strut::regression {
@@ -194,6 +195,34 @@ TEST_P(StoppedBar, HasTheImpulsesOfSubstepsInItsReaction) {
 INSTANTIATE_TEST_SUITE_P(By, StoppedBar,
                          testing::Values(plane("wall", "Rigid Plane", "all", "0 0 -0.2e-3", "0 0 1"),
                                          plane("wall", "Symmetry Plane", "foot", "0 0 0", "0 0 1")));
+
+// The force of one of two planes is that through the bonds to its images: where a point has substeps and an image has
+// none, too, or the other way about. The stiff end of the bar has them.
+class BarBetweenPlanes : public testing::TestWithParam<std::string> {};
+
+TEST_P(BarBetweenPlanes, HasTheImpulsesOfSubstepsInItsReactions) {
+  Parts parts =
+      stiff_ended_bar(changed(copper(), key("Density", "8930"), key("Density", "8930") + GetParam()), "1.17e9");
+  parts.node_sets = key("low", "x &lt; 1e-3") + key("high", "x &gt; 3e-3");
+  parts.conditions = along("flight", "Initial Velocity", "all", "x", "20*sin(900*x)*(1 + 50*z)") +
+                     plane("left", "Symmetry Plane", "low", "0 0 0", "1 0 0") +
+                     plane("right", "Symmetry Plane", "high", "4e-3 0 0", "-1 0 0");
+  parts.times = key("Final Time", "9e-6");
+  parts.verlet = key("Subcycling", "true");
+  const Table table =
+      history_of(parts, {"Reaction_X(left)", "Reaction_X(right)"}, {.nx = 4, .ny = 4, .nz = 20, .plate_layers = 4});
+  const std::vector<double>&time = table.at("Time"), &momentum = table.at("Momentum_X");
+  EXPECT_LT(time.size(), 20u) << "steps are as long as the soft part lets them be";
+  for (std::size_t n = 1; n < time.size(); ++n) {
+    const double given =
+        impulse(table.at("Reaction_X(left)"), time, n) + impulse(table.at("Reaction_X(right)"), time, n);
+    EXPECT_NEAR(given, momentum[n] - momentum[0], 1e-11 * momentum[0]) << n;  // round-off of a sum over points
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(By, BarBetweenPlanes,
+                         testing::Values("", key("Stabilization", "Silling"),
+                                         key("Formulation", "Quadratic Correspondence")));
 
 }  // namespace
 }  // namespace strut::regression
