@@ -149,8 +149,8 @@ class Studies(InFolder):
         self.assertEqual((status, errors), (0, ""), out)
         self.assertAlmostEqual(float(self.rows()[0]["Mean_Displacement_Z"]), -1e-5, delta=1e-13)
         deck = Deck(str(self.folder / "bar.yaml"))
-        self.assertEqual([deck.get("Blocks", "bar", "Horizon Factor"), deck.get("Materials", "copper", "Young's Modulus")],
-                         ["1.75", "117000000000"])
+        self.assertEqual([float(deck.get("Blocks", "bar", "Horizon Factor")), float(deck.get("Materials", "copper", "Young's Modulus"))],
+                         [1.75, 117e9])
         (self.folder / "bar.yaml").write_text("Solver:\n\tFinal Time: 1\n")
         status, _, errors = self.study("bar.study", "other")
         self.assertEqual(status, 1)
