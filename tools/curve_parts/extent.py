@@ -9,18 +9,25 @@ SOLIDS = ("HEX", "TET")
 NUMBERS = ["centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "moment_zz"]
 
 
-def size_of(path, block):
-    """Edges (m) of the box around the elements of a block, or of all; None if the mesh does not contain it."""
+def box_in(path, block, whole=False):
+    """Both corners (m) of the box around the elements of a block, or of all; None if the mesh does not contain it. `whole`: with
+    what partly filled cells leave empty."""
     if not os.path.isfile(path):
         return None
     try:
         with opened(path) as file:
-            boxes = [box_of(file, n) for n, name in enumerate(names_in(file, "eb_names"), 1) if block in (None, name)]
+            boxes = [box_of(file, n, whole) for n, name in enumerate(names_in(file, "eb_names"), 1) if block in (None, name)]
     except (OSError, KeyError, AttributeError):
         return None
     if not boxes or any(box is None for box in boxes):
         return None
-    return np.max([high for _, high in boxes], axis=0) - np.min([low for low, _ in boxes], axis=0)
+    return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
+
+
+def size_of(path, block):
+    """The edges of this box, m."""
+    box = box_in(path, block)
+    return None if box is None else box[1] - box[0]
 
 
 def nodes_of(file, number):
@@ -50,13 +57,13 @@ def cells_of(file, number):
     return edges, *(prisms_of(file, number) or (places.mean(axis=1), 0.5 * edges))
 
 
-def box_of(file, number):
+def box_of(file, number, whole=False):
     """Both corners of the box around the nodes of a block; None if it has only points."""
     places = nodes_of(file, number)
     if places is None:
         return None
     low, high = places.min(axis=(0, 1)), places.max(axis=(0, 1))
-    prisms = prisms_of(file, number)
+    prisms = None if whole else prisms_of(file, number)
     return (low, high) if prisms is None else box_of_cells(places, *prisms, low, high)
 
 

@@ -127,8 +127,9 @@ def signed(values):
 
 
 def motion_of(deck, axis, times):
-    """{condition: its displacement along the axis at these times}, for conditions with a prescribed motion."""
-    letter, moves = "xyz"[axis], {}
+    """{condition: its displacement along the axis at these times}, for conditions with a prescribed motion, and {tool: words on
+    where it begins}."""
+    letter, moves, begins = "xyz"[axis], {}, {}
     for name, keys in deck.sections("Boundary Conditions").items():
         kind, value = value_in(keys, "Type"), value_in(keys, "Value")
         if kind in ("Prescribed Displacement", "Prescribed Velocity") and letter in value_in(keys, "Coordinate"):
@@ -141,8 +142,45 @@ def motion_of(deck, axis, times):
             continue
         moves[name] = cumulative_trapezoid(way, times, initial=0) if kind == "Prescribed Velocity" else np.array(way)
         if kind.startswith("Rigid ") and deck.section("Start From") is None:
-            moves[name] -= moves[name][0]  # where it stands at the start, bodies are taken as cut off
-    return moves
+            moves[name], begins[name] = from_the_touch(moves[name], apart_at_first(deck, keys, axis, moves[name][0]))
+    return moves, begins
+
+
+def from_the_touch(way, apart):
+    """The way of a tool after it has come so far to the body (m, along the axis; None if that is not known), and words on it."""
+    way = way - way[0]  # where it stands at the start, bodies are taken as cut off
+    if apart is None:
+        return way, " from where it stands at the start (a gap there counts as strain)"
+    if apart == 0:
+        return way, ""
+    toward = -np.sign(apart)
+    return toward * np.maximum(toward * way - abs(apart), 0), f" less {abs(apart):.6g} m, by which it stands apart at the start"
+
+
+def apart_at_first(deck, keys, axis, travel):
+    """Where a tool stands beyond the face of the bodies that it meets, m along the axis; 0 where it touches or cuts them off,
+    None where that is not known."""
+    tool, mesh, of = flat_tool(keys, axis), deck.file("Discretization", "Input Mesh File"), value_in(keys, "Node Set")
+    boxes = [tool and mesh and extent.box_in(mesh, None if of in (None, "all") else of, whole) for whole in (True, False)]
+    if not all(boxes):
+        return None
+    cells, material = ((box[0][axis] - travel, box[1][axis] - travel) for box in boxes)
+    none = 1e-6 * (cells[1] - cells[0])  # where cells end, also partly filled ones, nothing is apart
+    return tool[0] - material[1] if tool[0] - cells[1] > none else tool[1] - material[0] if tool[1] - cells[0] < -none else 0
+
+
+def flat_tool(keys, axis):
+    """From where to where a plane across the axis, or a box, reaches along it, m; None of other tools."""
+    names = {"Rigid Plane": ("Point", "Normal"), "Rigid Box": ("Lower Corner", "Upper Corner")}.get(value_in(keys, "Type"), ())
+    numbers = [[strut_tools.number(word) for word in (value_in(keys, name) or "").split()] for name in names]
+    if not numbers or any(len(row) != 3 or None in row for row in numbers):
+        return None
+    one, other = numbers
+    if value_in(keys, "Type") == "Rigid Box":
+        return one[axis], other[axis]
+    if abs(other[axis]) < (1 - 1e-6) * np.linalg.norm(other):
+        return None
+    return (one[axis], np.inf) if other[axis] < 0 else (-np.inf, one[axis])
 
 
 def stretch_of_sides(deck, axis, times):
@@ -173,12 +211,13 @@ def shortening(deck, table, axis, words):
     means = [n for n in table if re.fullmatch(rf"Mean_Displacement_{letter}\([^ ]+\)", n)]
     if len(means) in (1, 2):
         return signed(table[means[0]] - (table[means[1]] if len(means) == 2 else 0)), " less ".join(means)
-    moves = motion_of(deck, axis, times) if deck else {}
+    moves, begins = motion_of(deck, axis, times) if deck else ({}, {})
     ways = list(moves.values())
     if any(np.ptp(way) > 0 for way in ways):  # a fixed rim gives no shortening
         pairs = list(itertools.combinations(ways, 2)) or [(ways[0], np.zeros(len(times)))]
         ends = max(pairs, key=lambda pair: np.abs(pair[0] - pair[1]).max())  # which may return to where they began
-        return signed(ends[0] - ends[1]), f"the motion of {', '.join(f'`{m}`' for m in moves)}"
+        named = ", ".join(f"`{name}`" + begins.get(name, "") for name in moves)
+        return signed(ends[0] - ends[1]), f"the motion of {named}"
     places = layers(table, axis, words.layers)
     if places is not None:
         apart = np.abs(places[0][:, -1] - places[0][:, 0])

@@ -10,6 +10,7 @@ from tool_test import InFolder
 
 import numpy as np
 import netCDF4
+import exodus
 from curve_parts import extent, measures, shock, source
 from decks import Deck, Recipe
 
@@ -156,6 +157,7 @@ class Extents(InFolder):
         for scale in (1, 1e-9):  # a body of nanometers is a body, too
             size = extent.size_of(self.write(middles, radii, scale), None)
             np.testing.assert_allclose(size / scale, [2.5, 5, 1], rtol=1e-14)
+        np.testing.assert_array_equal(extent.box_in(self.write(middles, radii), None, whole=True), [[0, 0, 0], [3, 5, 1]])
 
 
 V, U, RHO, H = 80.0, 100.0, 400.0, 0.02  # m/s, m/s, kg/m³, m
@@ -302,6 +304,35 @@ class Runs(InFolder):
             (self.folder / "block.xml").write_text(deck)
             self.made("block.xml")
             np.testing.assert_allclose([float(row[1]) for row in self.table("block-curve.csv")[1:]], expected, atol=1e-9)
+
+    def test_the_way_of_a_tool_to_the_body_is_no_strain(self):
+        corners = np.array([(x, y, z) for z in (0, 8e-3) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], float)
+        exodus.write_mesh(str(self.folder / "block.g"), corners, [("bar", "HEX8", np.arange(8)[None], None)], {})
+        times = np.linspace(0, 1, 11)
+        self.history({"Time": times, "Reaction_Z(top)": -times, "Reaction_Z(bottom)": times})
+        key = '<Parameter name="%s" type="string" value="%s"/>'
+        deck = DECK.replace('"Value"', '"Travel Z"')
+
+        def curve(kind, travel, *places):
+            keys = "".join(key % (name, f"0 0 {number}") for name, number in places)
+            text = deck.replace("Prescribed Displacement", kind).replace("-1e-2*t", travel).replace(key % ("Coordinate", "z"), keys)
+            (self.folder / "block.xml").write_text(text)
+            done = self.curve("block.xml", "--height", "8e-3", "--area", "1")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            return done.stdout, [8 * float(row[1]) for row in self.table("block-curve.csv")[1:]]
+
+        plane = "Rigid Plane"
+        for words in ((plane, "-2e-3*t", ("Point", 9e-3), ("Normal", -1)), (plane, "1e-3-2e-3*t", ("Point", 8e-3), ("Normal", -2)),
+                      (plane, "2e-3*t", ("Point", -1e-3), ("Normal", 1)),
+                      ("Rigid Box", "-2e-3*t", ("Lower Corner", 9e-3), ("Upper Corner", 1))):
+            said, way = curve(*words)
+            np.testing.assert_allclose(way, np.maximum(2 * times - 1, 0), atol=1e-8)  # nine digits in the file
+            self.assertIn("`top` less 0.001 m, by which it stands apart", said)
+        for place in (8e-3, 7e-3):  # where bodies are taken as cut off
+            said, way = curve(plane, "-2e-3*t", ("Point", place), ("Normal", -1))
+            np.testing.assert_allclose(way, 2 * times, atol=1e-8)
+            self.assertNotIn("stands apart", said)
+        self.assertIn("(a gap there counts as strain)", curve("Rigid Cylinder", "-2e-3*t")[0])
 
     def test_the_blow_of_the_first_step_does_not_count(self):
         force = 4e-5 * stress_at(STRAIN)
