@@ -26,43 +26,15 @@ void check_output(const std::string& output, const std::filesystem::path& read, 
     throw strut::Error(output + " is " + what + "; expected another file for the mesh");
 }
 
-// The file that is written and then renamed, so that a mesh that does not fit on the disk costs no earlier one; beside
-// the file itself, not a link to it.
-std::filesystem::path part_of_mesh(const std::string& output) {
-  return strut::part_of(std::filesystem::weakly_canonical(output));
-}
-
-// An existing file that is no mesh must not be overwritten.
-void check_replaceable(const std::string& output) {
-  for (const std::filesystem::path& file : {std::filesystem::path(output), part_of_mesh(output)}) {
-    if (const std::string why = strut::obstacle(file, strut::FileKind::mesh); !why.empty()) throw strut::Error(why);
-  }
-}
-
 strut::io::Mesh from_recipe(const std::string& recipe, const std::string& output) {
   check_output(output, recipe, "the recipe");
   const std::vector<strut::mesh::Body> bodies = strut::mesh::read_recipe(recipe);
-  for (const strut::mesh::Body& body : bodies) {
-    for (const std::string& file : {output, part_of_mesh(output).string()})
-      check_output(file, body.file, "a mesh that the recipe reads");
-  }
-  check_replaceable(output);
+  for (const strut::mesh::Body& body : bodies) check_output(output, body.file, "a mesh that the recipe reads");
+  strut::io::check_replaceable(output);
   std::string summary;
   strut::io::Mesh mesh = strut::mesh::mesh_of(bodies, summary);
   std::fputs(summary.c_str(), stdout);
   return mesh;
-}
-
-void write_whole(const strut::io::Mesh& mesh, const std::string& output) {
-  const std::filesystem::path part = part_of_mesh(output);
-  try {
-    strut::io::write_mesh(part, mesh);
-    std::filesystem::rename(part, std::filesystem::weakly_canonical(output));
-  } catch (const std::exception&) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw;
-  }
 }
 
 void write(const strut::io::Mesh& mesh, const std::string& source, const std::string& output) {
@@ -70,7 +42,7 @@ void write(const strut::io::Mesh& mesh, const std::string& source, const std::st
     throw strut::Error(source + ": " + std::to_string(mesh.node_sets.size()) + " node sets, at most " +
                        std::to_string(most_sets) + " are supported");
   }
-  write_whole(mesh, output);
+  strut::io::replace_mesh(output, mesh);
   std::size_t points = 0;
   for (const auto& block : mesh.blocks) points += block.elements();
   std::vector<std::string> sets;
@@ -81,7 +53,7 @@ void write(const strut::io::Mesh& mesh, const std::string& source, const std::st
 
 void make(const std::string& source, const std::string& output) {
   if (source != "--arrays") return write(from_recipe(source, output), source, output);
-  check_replaceable(output);
+  strut::io::check_replaceable(output);
   std::ios::sync_with_stdio(false);
   std::string summary;
   const strut::io::Mesh mesh = strut::mesh::read_arrays(std::cin, "standard input", &summary);

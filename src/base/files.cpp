@@ -22,16 +22,6 @@ constexpr std::size_t longest_head = 1'000'000;
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
-// Follows links, also to files that do not exist.
-fs::path destination(fs::path name) {
-  constexpr int most_links = 40;
-  std::error_code failure;
-  for (int n = 0; n < most_links && fs::is_symlink(fs::symlink_status(name, failure)); ++n) {
-    name = folder_of(name) / fs::read_symlink(name, failure);
-  }
-  return name;
-}
-
 // The path from the root, also through folders that do not exist yet; empty if the system cannot tell.
 fs::path whole_name(const fs::path& name) {
   std::error_code failure;
@@ -113,6 +103,15 @@ std::string refusal_of_system(const fs::path& file) {
 }
 
 }  // namespace
+
+fs::path destination(fs::path name) {
+  constexpr int most_links = 40;
+  std::error_code failure;
+  for (int n = 0; n < most_links && fs::is_symlink(fs::symlink_status(name, failure)); ++n) {
+    name = folder_of(name) / fs::read_symlink(name, failure);
+  }
+  return name;
+}
 
 bool same_file(const fs::path& one, const fs::path& other) {
   if (one.empty() || other.empty()) return false;

@@ -12,6 +12,9 @@ namespace strut {
 // if they are in one folder and their names differ at most in case, which some file systems ignore.
 bool same_file(const std::filesystem::path& one, const std::filesystem::path& other);
 
+// Where a link leads, also to a file that does not exist; a name that is no link itself.
+std::filesystem::path destination(std::filesystem::path name);
+
 // The reason why a file cannot be read: a sentence that begins with its name; nothing if it can. A pipe without a
 // writer would block for ever.
 std::string unreadable(const std::filesystem::path& file);

@@ -293,7 +293,7 @@ PYBIND11_MODULE(_core, module) {
       .def_static("of_voxels", [](const py::bytes& stream) { return mesh_of_voxels(stream); })
       .def_static("of_recipe", &mesh_of_recipe)
       .def_static("of_file", [](const std::string& file) { return io::read_mesh(file); })
-      .def("write", [](const io::Mesh& mesh, const std::string& file) { io::write_mesh(file, mesh); })
+      .def("write", [](const io::Mesh& mesh, const std::string& file) { io::replace_mesh(file, mesh); })
       .def_property_readonly("nodes", &python::nodes_of)
       .def_property_readonly("blocks", &python::elements_of)
       .def_property_readonly("sets", &python::sets_of);

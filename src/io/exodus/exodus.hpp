@@ -125,6 +125,12 @@ struct Mesh {
 };
 void write_mesh(const std::filesystem::path& file, const Mesh& mesh);
 
+// The same where a mesh may be, or a link to one: the file is written beside it, under a name of this process, and
+// renamed when it is whole, so that a mesh that does not fit on the disk costs no earlier one. Throws Error, as
+// check_replaceable does before the work, if something else than a mesh is there or it may not be written.
+void replace_mesh(const std::filesystem::path& file, const Mesh& mesh);
+void check_replaceable(const std::filesystem::path& file);
+
 // Collective. The points of a mesh in memory, which counts on rank 0 only, as read_exodus gives them.
 PointCloud points_of(const Mesh& mesh, const Communicator& communicator, PointsAt at = PointsAt::elements,
                      bool with_cells = false, const std::vector<Mirror>& planes = {}, FacesOnPlanes* apart = nullptr);

@@ -1,4 +1,6 @@
 // Writes a mesh made by a tool to a file.
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 
@@ -84,6 +86,10 @@ std::int64_t largest_variable(const std::vector<ExodusFile::Block>& blocks, std:
   return largest;
 }
 
+std::filesystem::path part_of_mesh(const std::filesystem::path& file) {
+  return part_of(destination(file).string() + "." + std::to_string(getpid()));
+}
+
 }  // namespace
 
 int nodes_per_element(const std::string& type) {
@@ -115,6 +121,25 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {
     file.put_nodes_of(sets[k], counted_from_one(mesh.node_sets[k].nodes));
   }
   file.flush();
+}
+
+void check_replaceable(const std::filesystem::path& file) {
+  for (const std::filesystem::path& one : {file, part_of_mesh(file)}) {
+    if (const std::string why = obstacle(one, FileKind::mesh); !why.empty()) throw Error(why);
+  }
+}
+
+void replace_mesh(const std::filesystem::path& file, const Mesh& mesh) {
+  check_replaceable(file);
+  const std::filesystem::path part = part_of_mesh(file);
+  try {
+    write_mesh(part, mesh);
+    std::filesystem::rename(part, destination(file));
+  } catch (const std::exception&) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw;
+  }
 }
 
 }  // namespace strut::io
