@@ -126,10 +126,35 @@ TEST(Overlaps, AreNotWherePartsLieBesideEachOther) {
   EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4e-3}).find(unmerged), std::string::npos);                 // bonded
 }
 
+// A crack cuts elements that share nodes into parts, too.
+TEST(Overlaps, AreNotWhereACrackIs) {
+  std::string disk = key("Type", "Disk") + key("Radius", "1") + key("Center_Z", "4e-3") + key("Normal_Z", "1");
+  for (const char* zero : {"Normal_X", "Normal_Y", "Center_X", "Center_Y"}) disk += key(zero, "0");
+  const std::string crack = section("Bond Filters", section("cut", disk));
+  for (const Parts& parts : {Parts{}, quadratic()}) {
+    const RunFolder folder(Lattice{4, 4, 8});
+    const std::string text = changed(parts.text(), R"(value="bar.g"/>)", R"(value="bar.g"/>)" + crack);
+    const deck::Deck deck = deck::read(folder.write("deck.xml", text), folder.world);
+    const std::string told = told_at_the_start(deck, folder.world).warnings;
+    EXPECT_EQ(told.find("share no node"), std::string::npos) << told;
+  }
+}
+
 std::string with_anything() {
   return section("Models", section("m", key("Contact Model", "Short Range Force") + key("Spring Constant", "1e11") +
                                             key("Contact Radius", "1e-3"))) +
          section("Interactions", section("any", key("Contact Model", "m")));
+}
+
+// Two parts of a block may be bodies that meet; an interaction of all blocks does not say so.
+TEST(Overlaps, AreNotWherePartsMeetByDeclaredContact) {
+  const auto told = [](const std::string& contact) {
+    Parts parts = quadratic();
+    parts.contact = contact;
+    return told_of_two({4, 8, 4}, {0, 0, 4e-3}, parts).find("share no node") != std::string::npos;
+  };
+  EXPECT_FALSE(told(contact_of({{"bar", "bar"}}, "1e-3", "1e11")));
+  EXPECT_TRUE(told(with_anything()));
 }
 
 // Contact never acts between bonded points: of one block, too, and across gaps of less than a quarter of a spacing.
