@@ -193,6 +193,49 @@ TEST(Contact, OfBondedBlocksIsToldWhereTheGapIsSmall) {
   EXPECT_FALSE(told(0, true));
 }
 
+// Cells that are no cubes, and layers that do not match, leave no gap where they touch. The warnings of two stacks of
+// 4 x 4 x 4 cells, of which the upper one has nodes of its own.
+std::string told_of_stacks(const Vector& edges, const Vector& apart, const std::string& points, bool merged,
+                           bool one_block) {
+  const RunFolder folder;
+  io::Mesh mesh = Lattice{4, 4, merged ? 8 : 4, 1.0}.mesh();
+  for (Vector& X : mesh.nodes) X = X.cwiseProduct(edges);
+  const std::vector<Vector> once = mesh.nodes;
+  std::vector<int>& low = mesh.blocks[0].nodes;
+  io::Mesh::Block high = mesh.blocks[0];
+  high.name = "high";
+  if (merged) high.nodes.erase(high.nodes.begin(), high.nodes.begin() + 8 * 64), low.resize(8 * 64);
+  for (const Vector& X : once)
+    if (!merged) mesh.nodes.push_back(X + apart);
+  for (int& node : high.nodes) node += merged ? 0 : static_cast<int>(once.size());
+  if (one_block) low.insert(low.end(), high.nodes.begin(), high.nodes.end());
+  if (!one_block) mesh.blocks.push_back(high);
+  mesh.node_sets.clear();
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+  Parts parts;
+  parts.points = points;
+  parts.contact = with_anything();
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "4.1e-3"));
+  return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+}
+
+TEST(Contact, OfCellsThatAreNoCubesIsToldWhereThereIsAGap) {
+  const std::string bonded = "are bonded to each other by";
+  const Vector tall(1e-3, 1e-3, 2e-3), cube = Vector::Constant(1e-3);
+  const auto told = [&](const Vector& edges, const Vector& apart, const std::string& points, bool merged,
+                        bool one_block) {
+    return told_of_stacks(edges, apart, points, merged, one_block).find(bonded) != std::string::npos;
+  };
+  EXPECT_FALSE(told(tall, Vector::Zero(), "Nodes", true, false));
+  for (const bool one_block : {false, true}) {
+    EXPECT_FALSE(told(tall, {0, 0, 8e-3}, "Elements", false, one_block));
+    EXPECT_TRUE(told(tall, {0, 0, 8.2e-3}, "Elements", false, one_block));
+    EXPECT_FALSE(told(cube, {0.5e-3, 0.5e-3, 4e-3}, "Elements", false, one_block));
+    EXPECT_FALSE(told(cube, {0.5e-3, 0, 4e-3}, "Elements", false, one_block));
+    EXPECT_TRUE(told(cube, {0.5e-3, 0.5e-3, 4.2e-3}, "Elements", false, one_block));
+  }
+}
+
 TEST(Overlaps, OfSeparateBodiesAreTold) {
   for (const double apart : {0.3e-3, 0.5e-3, 1.3e-3}) {
     EXPECT_NE(warnings(apart, true, "").find("points of the blocks 'block_1' and 'block_2', one of them at"),
