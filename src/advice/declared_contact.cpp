@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -64,44 +66,78 @@ std::string undeclared_contacts(const Situation& situation) {
 
 namespace {
 
-// Number of bonds between two blocks, both ends counted as one, the length of the shortest, m, and how many of them are
-// between elements with nodes, and with a node in common.
-struct BondsBetween {
-  double count = 0, shortest = std::numeric_limits<double>::infinity(), meshed = 0, joined = 0;
-};
-
-BondsBetween bonds_between(const Domain& domain, const std::vector<int>& blocks, const MeshNodes& nodes, int first,
-                           int second) {
-  BondsBetween bonds;
-  for (int i = 0; i < domain.owned; ++i) {
-    if (domain.cloud.blocks[i] != first) continue;
-    domain.families.for_each(i, [&](int j) {
-      if (blocks[j] != second) return;
-      ++bonds.count;
-      bonds.meshed += nodes.of_both(i, j) ? 1 : 0;
-      bonds.joined += nodes.of_both(i, j) && nodes.may_join(i, j) ? 1 : 0;
-      bonds.shortest = std::min(bonds.shortest, (domain.reference(j) - domain.reference(i)).norm());
-    });
-  }
-  return {domain.communicator.sum(bonds.count), domain.communicator.min(bonds.shortest),
-          domain.communicator.sum(bonds.meshed), domain.communicator.sum(bonds.joined)};
-}
+Vector bond(const Domain& domain, int i, int j) { return domain.reference(j) - domain.reference(i); }
 
 // Layers of one lattice, or of two matching lattices, are never that many spacings apart. Of elements without a common
 // node a smaller distance tells.
 constexpr double gap_of_points = 1.25, gap_of_elements = 1.02;
 
-double length(const Domain& domain, int i, int j) { return (domain.reference(j) - domain.reference(i)).norm(); }
+// The edges of the cell of an owned point along the axes, m, if it is one of a lattice along these, whose steps then
+// have its volume; else 0.
+Vector edges_on_lattice(const Domain& domain, int i) {
+  constexpr double narrow = 0.8;  // the cosine of the cone around an axis that holds the next point
+  constexpr double alike = 1e-3;  // the relative difference of volumes
+  Vector steps = Vector::Constant(std::numeric_limits<double>::infinity());
+  domain.families.for_each(i, [&](int j) {
+    const Vector along = bond(domain, i, j).cwiseAbs();
+    for (int c = 0; c < 3; ++c) {
+      if (along[c] > narrow * along.norm()) steps[c] = std::min(steps[c], along[c]);
+    }
+  });
+  const double whole = std::pow(domain.cloud.spacings[i], 3);
+  return std::abs(steps.prod() - whole) < alike * whole ? steps : Vector(Vector::Zero());
+}
+
+// True if the cells of a bond's ends touch, so that it bridges no gap: they are within `gap` spacings, or edges along
+// each axis, whose cells need not be cubes nor stand in line.
+bool touch(const Vector& xi, double spacing, const Vector& edges, double gap) {
+  return xi.norm() <= gap * spacing || (xi.cwiseAbs().array() <= gap * edges.array()).all();
+}
+
+// Number of bonds between two blocks, both ends counted as one, how many of them are between elements with a node in
+// common, and between cells that touch.
+struct BondsBetween {
+  double count = 0, joined = 0, touching = 0;
+};
+
+BondsBetween bonds_between(const Domain& domain, const std::vector<int>& blocks, const MeshNodes& nodes, int first,
+                           int second) {
+  BondsBetween bonds;
+  const double spacing = std::max(domain.blocks[first].spacing, domain.blocks[second].spacing);
+  for (int i = 0; i < domain.owned; ++i) {
+    if (domain.cloud.blocks[i] != first && domain.cloud.blocks[i] != second) continue;
+    const bool is_first = domain.cloud.blocks[i] == first;
+    std::optional<Vector> edges;
+    domain.families.for_each(i, [&](int j) {
+      if (blocks[j] != (is_first ? second : first)) return;
+      if (!edges) edges = edges_on_lattice(domain, i);
+      bonds.count += is_first ? 1 : 0;
+      bonds.joined += nodes.of_both(i, j) && nodes.may_join(i, j) ? 1 : 0;
+      bonds.touching +=
+          touch(bond(domain, i, j), spacing, *edges, nodes.of_both(i, j) ? gap_of_elements : gap_of_points) ? 1 : 0;
+    });
+  }
+  return {domain.communicator.sum(bonds.count), domain.communicator.sum(bonds.joined),
+          domain.communicator.sum(bonds.touching)};
+}
 
 // For owned points and ghosts the part of the mesh that elements with a common node make, or those that touch without.
-// Both ends of a bond must find the same: the distance is compared with the mean of their spacings.
+// Both ends of a bond must find the same, so distances are compared with means of both.
 std::vector<std::int64_t> parts_of(const Domain& domain, const std::vector<int>& blocks, const MeshNodes& nodes) {
   std::vector<std::int64_t> parts(domain.sites.size(), 0);
   if (!nodes.any()) return parts;
+  std::vector<Vector> edges;
+  for (int i = 0; i < domain.owned; ++i) edges.push_back(edges_on_lattice(domain, i));
+  edges.resize(domain.sites.size());
+  domain.halo.exchange(edges);
+  const auto mean_of = [](const Vector& one, const Vector& other) -> Vector {
+    if (one.isZero(0) || other.isZero(0)) return Vector::Zero();
+    return 0.5 * (one.cwiseAbs() + other.cwiseAbs());  // planes of symmetry turn their signs
+  };
   parts = piece_ids(domain, [&](int i, int j) {
     return nodes.may_join(i, j) ||
-           length(domain, i, j) <=
-               0.5 * gap_of_elements * (domain.blocks[blocks[i]].spacing + domain.blocks[blocks[j]].spacing);
+           touch(bond(domain, i, j), 0.5 * (domain.blocks[blocks[i]].spacing + domain.blocks[blocks[j]].spacing),
+                 mean_of(edges[i], edges[j]), gap_of_elements);
   });
   parts.resize(domain.sites.size());
   domain.halo.exchange(parts);
@@ -163,10 +199,8 @@ std::string bonded_contacts(const Situation& situation) {
                 "the mesh for each of them, with Separate Body true\n";
         continue;
       }
-      const auto [bonds, shortest, meshed, joined] = bonds_between(domain, blocks, nodes, a, b);
-      const double gap = meshed > 0 ? gap_of_elements : gap_of_points;
-      const bool across_gap =
-          joined == 0 && shortest > gap * std::max(domain.blocks[a].spacing, domain.blocks[b].spacing);
+      const auto [bonds, joined, touching] = bonds_between(domain, blocks, nodes, a, b);
+      const bool across_gap = joined == 0 && touching == 0;
       if (bonds == 0 || (one->first_block.empty() && !across_gap)) continue;
       text << "WARNING: Contact > Interactions > " << one->name << ": blocks " << names[a] << " and " << names[b]
            << " are bonded to each other by " << static_cast<std::int64_t>(bonds)

@@ -111,12 +111,17 @@ namespace {
 // A whole element with nodes, as it travels to other ranks. `part`: what the mesh joins, `piece`: what bonds join.
 struct Element {
   double place[3], edge, moments[6];
-  std::int64_t body, part, piece;
+  std::int64_t id, block, body, part, piece, nodes[8];  // nodes: ascending; after the last one it is repeated
 
   // The distance from its point to its face in a direction of unit length, as reach_of_cell().
   double reach(const Vector& direction) const {
     const Symmetric all = Eigen::Map<const Symmetric>(moments);  // zero where nothing needs them
     return std::sqrt(3 * direction.dot(to_tensor(all) * direction));
+  }
+
+  // A part may be another one because a crack cuts the bonds of elements with a common node.
+  bool shares_a_node(const Element& other) const {
+    return std::ranges::any_of(nodes, [&](std::int64_t node) { return std::ranges::binary_search(other.nodes, node); });
   }
 };
 
@@ -140,15 +145,38 @@ std::vector<Element> whole_elements(const Domain& domain, const std::vector<std:
   for (int i = 0; i < domain.owned; ++i) {
     if (!is_whole(domain, i)) continue;
     const Vector X = domain.reference(i);
+    const std::vector<std::int64_t>& nodes = domain.cloud.shared_nodes[i];
     points.push_back(i);
-    elements.push_back({{X[0], X[1], X[2]}, domain.cloud.spacings[i], {}, domain.body_of(i), parts[i], pieces[i]});
+    elements.push_back({.place = {X[0], X[1], X[2]},
+                        .edge = domain.cloud.spacings[i],
+                        .id = domain.id(i),
+                        .block = domain.cloud.blocks[i],
+                        .body = domain.body_of(i),
+                        .part = parts[i],
+                        .piece = pieces[i]});
+    for (std::size_t k = 0; k < 8; ++k) elements.back().nodes[k] = nodes[std::min(k, nodes.size() - 1)];
     if (!domain.cloud.shapes.empty()) Eigen::Map<Symmetric>(elements.back().moments) = domain.cloud.shapes[i].moments;
   }
   return elements;
 }
 
+// True if a crack separates owned point i from the point of this id, or their bond has broken.
+bool is_cut(const Domain& domain, int i, std::int64_t id) {
+  if (std::ranges::binary_search(domain.separated, std::pair(i, id))) return true;
+  const auto& broken = domain.families.broken;
+  return !broken.empty() && std::ranges::any_of(broken[i], [&](int j) { return domain.id(j) == id; });
+}
+
+// True if an interaction names the blocks of two points, whose bodies are then meant to meet.
+bool meet(const deck::Deck& deck, const std::string& one, const std::string& other) {
+  return std::ranges::any_of(deck.interactions, [&](const deck::Interaction& each) {
+    return each.first_block.empty() ? each.partners == deck::Partners::itself && one == other
+                                    : std::minmax(each.first_block, each.second_block) == std::minmax(one, other);
+  });
+}
+
 // Collective.
-AtOtherParts at_other_parts(const Domain& domain) {
+AtOtherParts at_other_parts(const Domain& domain, const deck::Deck& deck) {
   const MeshNodes nodes(domain);
   if (!nodes.any()) return {};
   const std::vector<std::int64_t> parts = nodes.parts(domain);
@@ -172,6 +200,7 @@ AtOtherParts at_other_parts(const Domain& domain) {
     elements.push_back(one);
     places.emplace_back(one.place[0], one.place[1], one.place[2]);
   }
+  const std::vector<std::string>& names = domain.cloud.block_names;
   const CellGrid grid(places, near);
   AtOtherParts found;
   for (std::size_t e = 0; e < points.size(); ++e) {
@@ -179,13 +208,14 @@ AtOtherParts at_other_parts(const Domain& domain) {
     bool is_inside = false, is_beside = false;
     grid.visit_near(places[e], [&](int j, const Vector& y) {
       const Element& other = elements[j];
-      if (other.body != one.body || other.part == one.part) return;
+      if (other.body != one.body || other.part == one.part || one.shares_a_node(other)) return;
       const Vector between = y - places[e];
       const double apart = between.norm();
       is_inside = is_inside || apart < inside_below * std::min(one.edge, other.edge);
       const Vector direction = between.stableNormalized();
-      is_beside =
-          is_beside || (other.piece != one.piece && apart < touching * (one.reach(direction) + other.reach(direction)));
+      is_beside = is_beside ||
+                  (other.piece != one.piece && apart < touching * (one.reach(direction) + other.reach(direction)) &&
+                   !is_cut(domain, points[e], other.id) && !meet(deck, names[one.block], names[other.block]));
     });
     if (is_inside) found.inside.push_back(points[e]);
     if (is_beside) found.beside.push_back(points[e]);
@@ -193,8 +223,8 @@ AtOtherParts at_other_parts(const Domain& domain) {
   return found;
 }
 
-std::string told_of_parts(const Body& body, bool crowds_are_told) {
-  const AtOtherParts found = at_other_parts(body.domain);
+std::string told_of_parts(const Body& body, const deck::Deck& deck, bool crowds_are_told) {
+  const AtOtherParts found = at_other_parts(body.domain, deck);
   const std::vector<FoundPoints> points = found_points(body, {found.inside, found.beside});
   const FoundPoints &inside = points[0], &beside = points[1];
   std::ostringstream text;
@@ -222,7 +252,7 @@ std::string overlaps(const Situation& situation) {
   // Cells of a grid do not overlap, and boxes of them hold more than the horizon.
   if (situation.deck.discretization.type != deck::MeshType::grid) {
     const std::string crowded_points = crowds(body, situation.scene.pieces);
-    text << crowded_points << told_of_parts(body, !crowded_points.empty());
+    text << crowded_points << told_of_parts(body, situation.deck, !crowded_points.empty());
   }
   for (const auto& [first, second, points] : contact::overlapping_blocks(domain)) {
     const FoundPoints found = found_points(body, {points})[0];

@@ -126,12 +126,30 @@ constexpr std::array of_the_body = {"Discretization > Points",
                                     "Materials",
                                     "Blocks"};
 
+// The type of a model by the name of its section.
+std::string damage_type(const std::string& model, const Texts& texts) {
+  return text_at(texts, "Damage Models > " + model + " > Damage Model");
+}
+
+bool is_ductile(const std::string& type) {
+  return type == "Plastic Strain" || type == "Johnson-Cook" || type == "Cockcroft-Latham";
+}
+
 // True for keys of a criterion by which points fail or soften: how far a point is counts in parts of its constants.
 bool is_of_failure(const std::string& path, const Texts& other) {
   const std::string parent = "Damage Models > ";
   if (!path.starts_with(parent)) return false;
-  const std::string type = text_at(other, path.substr(0, path.find(" > ", parent.size())) + " > Damage Model");
-  return type == "Plastic Strain" || type == "Johnson-Cook" || type == "Cockcroft-Latham" || type == "Cohesive Crack";
+  const std::size_t end = path.find(" > ", parent.size());
+  const std::string type = damage_type(path.substr(parent.size(), end - parent.size()), other);
+  return is_ductile(type) || type == "Cohesive Crack";
+}
+
+// Words on a model that a block did not have, if it counts what points have borne; else "".
+std::string not_counted(const std::string& path, const Texts& other, const Texts& now) {
+  if (!is_within(path, "Blocks") || !path.ends_with(" > Damage Model") || other.contains(path)) return "";
+  const std::string type = damage_type(text_at(now, path), now);
+  if (!is_ductile(type)) return "";
+  return ": a model '" + type + "' counts from the beginning what points have borne, which that run has not";
 }
 
 bool is_of_the_body(const std::string& path, const Texts& other) {
@@ -223,7 +241,9 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     if (is_within(path, "Boundary Conditions") || is_within(path, "Node Sets")) changes.same_conditions = false;
     if (is_within(path, "Node Sets")) changes.same_loads = false;
     if (sets_masses(path, other, now)) changes.masses = path + ": " + both(was, "there", is, "here");
-    if (is_of_the_body(path, other) && !within) changes.refused.push_back(path + ": " + both(was, "there", is, "here"));
+    const std::string uncounted = not_counted(path, other, now);
+    if ((is_of_the_body(path, other) || !uncounted.empty()) && !within)
+      changes.refused.push_back(path + ": " + both(was, "there", is, "here") + uncounted);
   }
   compare_images(other, now, changes.refused);
   const auto sets_of = [](const Texts& texts) {

@@ -115,7 +115,8 @@ std::vector<double> targets(const Hold& hold, const Vector& X, const Times& time
   std::vector<double> all(times.size(), 0);
   if (!hold.value) return all;
   const auto at = [&](double t) { return hold.value->evaluate(X, t); };
-  const double before = summed && !hold.is_velocity ? at(times.front().from) : 0;
+  const auto start = [&] { return std::ranges::min(times, {}, &Interval::from).from; };  // not of the first load step
+  const double before = summed && !hold.is_velocity ? at(start()) : 0;
   double sum = 0;
   for (std::size_t k = 0; k < times.size(); ++k) {
     const Interval& one = times[k];

@@ -27,9 +27,10 @@ def edge_of(path, block, axis):
     return found and np.median(np.concatenate([edges for edges, *_ in found])[:, axis])
 
 
-def box_in(path, block):
-    """Both corners (m) of the box around the elements of a block, or of all; None if the mesh does not contain it."""
-    boxes = of_blocks(path, block, box_of)
+def box_in(path, block, whole=False):
+    """Both corners (m) of the box around the elements of a block, or of all; None if the mesh does not contain it. `whole`: with
+    what partly filled cells leave empty."""
+    boxes = of_blocks(path, block, lambda file, number: box_of(file, number, whole))
     if boxes is None:
         return None
     return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
@@ -68,13 +69,13 @@ def cells_of(file, number):
     return edges, *(prisms_of(file, number) or (places.mean(axis=1), 0.5 * edges))
 
 
-def box_of(file, number):
+def box_of(file, number, whole=False):
     """Both corners of the box around the nodes of a block; None if it has only points."""
     places = nodes_of(file, number)
     if places is None:
         return None
     low, high = places.min(axis=(0, 1)), places.max(axis=(0, 1))
-    prisms = prisms_of(file, number)
+    prisms = None if whole else prisms_of(file, number)
     return (low, high) if prisms is None else box_of_cells(places, *prisms, low, high)
 
 

@@ -161,12 +161,12 @@ def apart_at_first(deck, keys, axis, travel):
     """Where a tool stands beyond the face of the bodies that it meets, m along the axis; 0 where it touches or cuts them off,
     None where that is not known."""
     tool, mesh, of = flat_tool(keys, axis), deck.file("Discretization", "Input Mesh File"), value_in(keys, "Node Set")
-    box = tool and mesh and extent.box_in(mesh, None if of in (None, "all") else of)
-    if not box:
+    boxes = [tool and mesh and extent.box_in(mesh, None if of in (None, "all") else of, whole) for whole in (True, False)]
+    if not all(boxes):
         return None
-    above, below = tool[0] + travel - box[1][axis], tool[1] + travel - box[0][axis]
-    none = 1e-6 * (box[1] - box[0])[axis]
-    return above if above > none else below if below < -none else 0
+    cells, material = ((box[0][axis] - travel, box[1][axis] - travel) for box in boxes)
+    none = 1e-6 * (cells[1] - cells[0])  # where cells end, also partly filled ones, nothing is apart
+    return tool[0] - material[1] if tool[0] - cells[1] > none else tool[1] - material[0] if tool[1] - cells[0] < -none else 0
 
 
 def flat_tool(keys, axis):

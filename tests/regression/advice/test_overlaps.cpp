@@ -126,10 +126,35 @@ TEST(Overlaps, AreNotWherePartsLieBesideEachOther) {
   EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4e-3}).find(unmerged), std::string::npos);                 // bonded
 }
 
+// A crack cuts elements that share nodes into parts, too.
+TEST(Overlaps, AreNotWhereACrackIs) {
+  std::string disk = key("Type", "Disk") + key("Radius", "1") + key("Center_Z", "4e-3") + key("Normal_Z", "1");
+  for (const char* zero : {"Normal_X", "Normal_Y", "Center_X", "Center_Y"}) disk += key(zero, "0");
+  const std::string crack = section("Bond Filters", section("cut", disk));
+  for (const Parts& parts : {Parts{}, quadratic()}) {
+    const RunFolder folder(Lattice{4, 4, 8});
+    const std::string text = changed(parts.text(), R"(value="bar.g"/>)", R"(value="bar.g"/>)" + crack);
+    const deck::Deck deck = deck::read(folder.write("deck.xml", text), folder.world);
+    const std::string told = told_at_the_start(deck, folder.world).warnings;
+    EXPECT_EQ(told.find("share no node"), std::string::npos) << told;
+  }
+}
+
 std::string with_anything() {
   return section("Models", section("m", key("Contact Model", "Short Range Force") + key("Spring Constant", "1e11") +
                                             key("Contact Radius", "1e-3"))) +
          section("Interactions", section("any", key("Contact Model", "m")));
+}
+
+// Two parts of a block may be bodies that meet; an interaction of all blocks does not say so.
+TEST(Overlaps, AreNotWherePartsMeetByDeclaredContact) {
+  const auto told = [](const std::string& contact) {
+    Parts parts = quadratic();
+    parts.contact = contact;
+    return told_of_two({4, 8, 4}, {0, 0, 4e-3}, parts).find("share no node") != std::string::npos;
+  };
+  EXPECT_FALSE(told(contact_of({{"bar", "bar"}}, "1e-3", "1e11")));
+  EXPECT_TRUE(told(with_anything()));
 }
 
 // Contact never acts between bonded points: of one block, too, and across gaps of less than a quarter of a spacing.
@@ -183,6 +208,49 @@ TEST(Contact, OfBondedBlocksOfUnequalSpacingsIsLookedFor) {
   parts.contact = with_anything();
   const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
   EXPECT_EQ(told_at_the_start(deck, folder.world).warnings.find("parts of block"), std::string::npos);
+}
+
+// Cells that are no cubes, and layers that do not match, leave no gap where they touch. The warnings of two stacks of
+// 4 x 4 x 4 cells, of which the upper one has nodes of its own.
+std::string told_of_stacks(const Vector& edges, const Vector& apart, const std::string& points, bool merged,
+                           bool one_block) {
+  const RunFolder folder;
+  io::Mesh mesh = Lattice{4, 4, merged ? 8 : 4, 1.0}.mesh();
+  for (Vector& X : mesh.nodes) X = X.cwiseProduct(edges);
+  const std::vector<Vector> once = mesh.nodes;
+  std::vector<int>& low = mesh.blocks[0].nodes;
+  io::Mesh::Block high = mesh.blocks[0];
+  high.name = "high";
+  if (merged) high.nodes.erase(high.nodes.begin(), high.nodes.begin() + 8 * 64), low.resize(8 * 64);
+  for (const Vector& X : once)
+    if (!merged) mesh.nodes.push_back(X + apart);
+  for (int& node : high.nodes) node += merged ? 0 : static_cast<int>(once.size());
+  if (one_block) low.insert(low.end(), high.nodes.begin(), high.nodes.end());
+  if (!one_block) mesh.blocks.push_back(high);
+  mesh.node_sets.clear();
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+  Parts parts;
+  parts.points = points;
+  parts.contact = with_anything();
+  parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "4.1e-3"));
+  return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+}
+
+TEST(Contact, OfCellsThatAreNoCubesIsToldWhereThereIsAGap) {
+  const std::string bonded = "are bonded to each other by";
+  const Vector tall(1e-3, 1e-3, 2e-3), cube = Vector::Constant(1e-3);
+  const auto told = [&](const Vector& edges, const Vector& apart, const std::string& points, bool merged,
+                        bool one_block) {
+    return told_of_stacks(edges, apart, points, merged, one_block).find(bonded) != std::string::npos;
+  };
+  EXPECT_FALSE(told(tall, Vector::Zero(), "Nodes", true, false));
+  for (const bool one_block : {false, true}) {
+    EXPECT_FALSE(told(tall, {0, 0, 8e-3}, "Elements", false, one_block));
+    EXPECT_TRUE(told(tall, {0, 0, 8.2e-3}, "Elements", false, one_block));
+    EXPECT_FALSE(told(cube, {0.5e-3, 0.5e-3, 4e-3}, "Elements", false, one_block));
+    EXPECT_FALSE(told(cube, {0.5e-3, 0, 4e-3}, "Elements", false, one_block));
+    EXPECT_TRUE(told(cube, {0.5e-3, 0.5e-3, 4.2e-3}, "Elements", false, one_block));
+  }
 }
 
 TEST(Overlaps, OfSeparateBodiesAreTold) {

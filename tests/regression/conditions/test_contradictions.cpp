@@ -26,9 +26,9 @@ struct Said {
 };
 
 // On every rank the same.
-Said said_of(Parts parts, Loading loading = Loading::sudden) {
+Said said_of(Parts parts, Loading loading = Loading::sudden, const std::string& of_equilibria = "") {
   const RunFolder folder;
-  if (loading == Loading::slow) parts.verlet = "";
+  if (loading == Loading::slow) parts.verlet = of_equilibria;
   Said said;
   try {
     const deck::Deck deck = deck::read(folder.write("deck.xml", text_of(parts, loading)), folder.world);
@@ -148,6 +148,13 @@ TEST(Contradiction, IsNotInWhatAgrees) {
   EXPECT_EQ(
       said_of(block(along("a", "Initial Velocity", "all", "z", "-20") + displacement("b", "foot", "z", "0"))).error,
       "");
+}
+
+// More load steps than there are looks: the first one is before the first look.
+TEST(Contradiction, IsNotInWhatAgreesOverManyLoadSteps) {
+  const Parts parts = block(displacement("a", "foot", "z", "5*t") + velocity("b", "side", "z", "5"));
+  for (const char* const steps : {"500", "510", "2000"})
+    EXPECT_EQ(said_of(parts, Loading::slow, key("Number of Load Steps", steps)).error, "") << steps;
 }
 
 // Planes that are not across each other, and a plane that a prescribed motion makes points slide along: each acts in

@@ -718,6 +718,27 @@ TEST(Changes, OfTheOrderOfConditionsAreRefused) {
   EXPECT_FALSE(start_changes(full_deck, other).same_conditions);
 }
 
+// A ductile model counts from the beginning of a run what others do not look at.
+TEST(Changes, OfAStartMayAddADamageModelThatIsNotDuctile) {
+  const auto refused_with = [](const std::string& model, const std::string& limit) {
+    const std::string horizon = R"(<Parameter name="Horizon" type="string" value="0.0065"/>)";
+    const std::string blocks = R"(<ParameterList name="Blocks">)";
+    std::string text =
+        changed(full_deck, horizon, horizon + R"(<Parameter name="Damage Model" type="string" value="d"/>)");
+    text = changed(text, blocks,
+                   R"(<ParameterList name="Damage Models"><ParameterList name="d"><Parameter name="Damage Model" )"
+                   R"(type="string" value=")" +
+                       model + R"("/><Parameter name=")" + limit +
+                       R"(" type="double" value="0.5"/></ParameterList></ParameterList>)" + blocks);
+    return start_changes(full_deck, text).refused;
+  };
+  EXPECT_EQ(refused_with("Critical Stretch", "Critical Stretch"), std::vector<std::string>{});
+  EXPECT_EQ(
+      refused_with("Plastic Strain", "Failure Strain"),
+      std::vector<std::string>{"Blocks > foam > Damage Model: nothing there, d here: a model 'Plastic Strain' counts "
+                               "from the beginning what points have borne, which that run has not"});
+}
+
 // Steps may change, masses may not.
 TEST(Changes, OfMassesWithinASectionOfStepsAreRefused) {
   const std::size_t begin = full_deck.find("<ParameterList name=\"Verlet\">");

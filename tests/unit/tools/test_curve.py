@@ -170,6 +170,7 @@ class Extents(InFolder):
         for scale in (1, 1e-9):  # a body of nanometers is a body, too
             size = extent.size_of(self.write(middles, radii, scale), None)
             np.testing.assert_allclose(size / scale, [2.5, 5, 1], rtol=1e-14)
+        np.testing.assert_array_equal(extent.box_in(self.write(middles, radii), None, whole=True), [[0, 0, 0], [3, 5, 1]])
 
 
 V, U, RHO, H = 80.0, 100.0, 400.0, 0.02  # m/s, m/s, kg/m³, m
