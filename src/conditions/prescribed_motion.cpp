@@ -1,5 +1,6 @@
 #include "conditions/prescribed_motion.hpp"
 
+#include "base/math/time_integral.hpp"
 #include "conditions/velocity_update.hpp"
 
 namespace strut {
@@ -14,13 +15,6 @@ double imposed_velocity(const PrescribedMotion& motion, int c, int i, const Velo
   if (motion.is_velocity) return value(update.t + 0.5 * dt);
   const double target = body.domain.reference(i)[c] + update.steps.after(value, update.t, dt);
   return (target - body.domain.sites[i].current[c]) / dt;
-}
-
-// Component c of the position of point i at the end of the motion from t to t + dt, m.
-double target_of(const PrescribedMotion& motion, int c, const Body& body, int i, double t, double dt) {
-  const auto value = [&](double time) { return motion.value(body.domain.reference(i), time); };
-  if (motion.is_velocity) return body.current(i)[c] + dt * value(t + 0.5 * dt);
-  return body.domain.reference(i)[c] + value(t + dt);
 }
 
 // All points for one component after the other, which equals one condition per component to the last bit.
@@ -57,9 +51,18 @@ void PrescribedMotion::predict_velocities(double t, double moment, const Body& b
 }
 
 std::vector<HeldDirection> PrescribedMotion::held_directions(const Body& body, double t, double dt) const {
+  // A load step may be as long as the run: a velocity is integrated over it.
+  const std::vector<double> turns = is_velocity ? numbers_in(value.text()) : std::vector<double>();
+  const auto way_at = [&](const Vector& X) {
+    return is_velocity ? time_integral(value, X, t, t + dt, turns) : value(X, t + dt);
+  };
+  const bool is_common = !value.depends_on_place() && !points.empty();
+  const double common = is_common ? way_at(Vector::Zero()) : 0;
   std::vector<HeldDirection> all;
   for_each_component(*this, [&](int c, int i) {
-    all.push_back({reaction_place, i, Vector::Unit(c), target_of(*this, c, body, i, t, dt)});
+    const Vector X = body.domain.reference(i);
+    const double from = is_velocity ? body.current(i)[c] : X[c];
+    all.push_back({reaction_place, i, Vector::Unit(c), from + (is_common ? common : way_at(X))});
   });
   return all;
 }

@@ -4,6 +4,7 @@
 #include <Teuchos_XMLObject.hpp>
 #include <algorithm>
 
+#include "base/errors.hpp"
 #include "base/numbers.hpp"
 
 namespace strut::deck {
@@ -26,6 +27,50 @@ void add_syntax_error(const std::string& what, Problems& problems) {
   problems.add(text.substr(0, colon), "malformed XML: " + text.substr(std::min(text.size(), colon + 2)));
 }
 
+// Teuchos lists them only in the text of the head: <Parameter name="Density" type="double" …>, escaped.
+std::vector<std::string> attributes_of(const Teuchos::XMLObject& xml) {
+  const std::string head = xml.header();
+  std::vector<std::string> names;
+  for (std::size_t at = head.find(' '); at < head.size();) {
+    const std::size_t is = head.find('=', ++at);
+    if (is == std::string::npos) break;
+    names.push_back(head.substr(at, is - at));
+    at = head.find(head[is + 1], is + 2);  // the closing quote
+    at = at == std::string::npos ? at : head.find(' ', at);
+  }
+  return names;
+}
+
+// Refuses attributes that say nothing here. Teuchos' writer adds the last ones.
+void check_attributes(const Teuchos::XMLObject& xml, std::vector<std::string> known, const std::string& path,
+                      Problems& problems) {
+  const std::vector<std::string> expected = known;
+  for (const char* written : {"id", "docString", "isDefault", "isUsed", "validatorId", "xmlns"})
+    known.push_back(written);
+  for (const std::string& name : attributes_of(xml)) {
+    if (std::ranges::find(known, name) != known.end() || name.starts_with("xmlns:")) continue;
+    problems.add(path,
+                 "unknown attribute '" + name + "'" + did_you_mean(name, expected) + "; expected " + joined(expected));
+  }
+}
+
+// The text between the tags of an element.
+std::string text_within(const Teuchos::XMLObject& xml) {
+  std::string all;
+  for (int i = 0; i < xml.numContentLines(); ++i) {
+    const std::string text(trimmed(xml.getContentLine(i)));
+    all += (all.empty() || text.empty() ? "" : " ") + text;
+  }
+  return all;
+}
+
+void check_is_empty(const Teuchos::XMLObject& xml, const std::string& path, Problems& problems) {
+  std::string within = text_within(xml);
+  if (xml.numChildren() > 0) within = "<" + xml.getChild(0).getTag() + " …>";
+  if (!within.empty())
+    problems.add(path, "'" + within + "' before its </Parameter>; expected <Parameter …/>, with nothing inside");
+}
+
 void read_parameter(const Teuchos::XMLObject& xml, const std::string& path, List& list, Problems& problems) {
   const auto attribute = [&](const char* name) { return xml.hasAttribute(name) ? xml.getAttribute(name) : ""; };
   const Parameter parameter{attribute("name"), attribute("type"), attribute("value")};
@@ -34,6 +79,9 @@ void read_parameter(const Teuchos::XMLObject& xml, const std::string& path, List
   } else {
     list.parameters.push_back(parameter);
   }
+  const std::string here = path_to(path, parameter.name.empty() ? "<Parameter>" : parameter.name);
+  check_attributes(xml, {"name", "type", "value"}, here, problems);
+  check_is_empty(xml, here, problems);
 }
 
 // Teuchos' own writer adds an empty <Validators/> to every list of a file.
@@ -65,10 +113,10 @@ std::string problem_before_parsing(const std::string& text) {
 List read_list(const Teuchos::XMLObject& xml, const std::string& path, Problems& problems) {
   List list;
   if (xml.hasAttribute("name")) list.name = xml.getAttribute("name");
-  for (int i = 0; i < xml.numContentLines(); ++i) {
-    const std::string text(trimmed(xml.getContentLine(i)));
-    if (!text.empty()) problems.add(path.empty() ? "(top)" : path, "stray text '" + text + "'");
-  }
+  const std::string here = path.empty() ? "(top)" : path;
+  check_attributes(xml, {"name", "type"}, here, problems);
+  const std::string text = text_within(xml);
+  if (!text.empty()) problems.add(here, "stray text '" + text + "'");
   for (int i = 0; i < xml.numChildren(); ++i) {
     const Teuchos::XMLObject child = xml.getChild(i);
     if (child.getTag() == "Parameter") {

@@ -109,8 +109,8 @@ void add_syntax_error(const std::string& what, bool was_put_into_one, Problems& 
   }
   problems.add(
       place,
-      "this is neither XML nor YAML; expected <ParameterList>s, or 'Key: value' and indented sections (Peridigm's "
-      "text with aprepro's {…} is not read)");
+      "this is neither XML nor a form of YAML that is read; expected <ParameterList>s, or 'Key: value' and indented "
+      "sections (quoted keys, '<<' and sections after '-' are not read, nor Peridigm's text with aprepro's {…})");
 }
 
 // The first line that a tab indents, which YAML does not allow; 0 without any.
@@ -120,6 +120,41 @@ int line_indented_by_tab(const std::string& text) {
   for (std::string line; std::getline(lines, line);) {
     ++number;
     if (line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos) return number;
+  }
+  return 0;
+}
+
+// Whether the line has a '#' that Teuchos takes for a comment, though YAML does not: within a word or in quotes.
+bool has_hidden_comment(std::string_view line) {
+  char quote = 0, before = ':';  // the last character that is no blank, after which a quote opens
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '#') return quote != 0 || (i > 0 && line[i - 1] != ' ' && line[i - 1] != '\t');
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if ((c == '\'' || c == '"') && std::string_view(":,[{-").find(before) != std::string_view::npos) {
+      quote = c;
+    }
+    if (c != ' ') before = c;
+  }
+  return false;
+}
+
+// The first such line outside of texts of several lines (after "Value: |"); 0 without any.
+int line_with_hidden_comment(const std::string& text) {
+  std::istringstream lines(text);
+  int number = 0;
+  std::size_t indent_of_text = std::string::npos;  // of the key before it
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const std::size_t begin = line.find_first_not_of(" \r");
+    if (begin == std::string::npos || (indent_of_text != std::string::npos && begin > indent_of_text)) continue;
+    if (has_hidden_comment(line)) return number;
+    const std::size_t mark = line.find_last_of("|>");
+    const bool begins_text = mark != std::string::npos && mark > 1 && line[mark - 1] == ' ' &&
+                             line.find_first_not_of("+-0123456789 \r", mark + 1) == std::string::npos &&
+                             line[line.find_last_not_of(' ', mark - 1)] == ':';
+    indent_of_text = begins_text ? begin : std::string::npos;
   }
   return 0;
 }
@@ -140,6 +175,13 @@ bool is_too_deep(const std::string& text) {
 std::optional<List> parse_yaml(const std::string& text, Problems& problems) {
   if (is_too_deep(text)) {
     problems.add("YAML", "more than a hundred levels; expected few");
+    return std::nullopt;
+  }
+  if (const int line = line_with_hidden_comment(text)) {
+    problems.add(
+        "line " + std::to_string(line),
+        "a '#' within a word or in quotes, which begins a comment here; expected a blank before a comment, and "
+        "names without '#'");
     return std::nullopt;
   }
   const bool put_into_one = !has_one_outermost_key(text);

@@ -12,7 +12,9 @@ namespace strut {
 
 bool is_quadratic(const deck::Material& material) { return material.formulation == Formulation::quadratic; }
 
-const deck::Block* section_of(const deck::Deck& deck, const std::string& block) {
+namespace {
+
+const deck::Block* naming_section(const deck::Deck& deck, const std::string& block) {
   const deck::Block* general = nullptr;
   for (const deck::Block& section : deck.blocks) {
     for (const std::string& name : section.block_names) {
@@ -23,7 +25,15 @@ const deck::Block* section_of(const deck::Deck& deck, const std::string& block) 
   return general;
 }
 
-void check_blocks(const deck::Deck& deck, const PointCloud& cloud, deck::Problems& problems) {
+}  // namespace
+
+const deck::Block* section_of(const deck::Deck& deck, const std::string& block) {
+  const deck::Block* section = naming_section(deck, block);
+  return section || deck.blocks.empty() ? section : &deck.blocks.front();
+}
+
+void check_blocks(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
+                  deck::Problems& problems) {
   for (const deck::Block& section : deck.blocks) {
     for (const std::string& name : section.block_names) {
       const auto& valid = cloud.block_names;
@@ -32,8 +42,9 @@ void check_blocks(const deck::Deck& deck, const PointCloud& cloud, deck::Problem
                    "the mesh has no block '" + name + "'" + did_you_mean(name, valid) + "; it has " + joined(valid));
     }
   }
-  for (const std::string& name : cloud.block_names) {
-    if (section_of(deck, name)) continue;
+  for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
+    const std::string& name = cloud.block_names[b];
+    if (spacings[b] == 0 || naming_section(deck, name)) continue;
     problems.add("Blocks", "block '" + name + "' of the mesh has no material: name it in a section's Block Names");
   }
 }
@@ -176,7 +187,7 @@ std::vector<double> mean_spacings(const PointCloud& cloud, const Communicator& c
 void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
                     deck::Problems& problems) {
   for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
-    const deck::Block* section = section_of(deck, cloud.block_names[b]);
+    const deck::Block* section = naming_section(deck, cloud.block_names[b]);
     if (!section || !section->horizon || spacings[b] == 0) continue;  // check_blocks reports blocks without a section
     if (deck.discretization.grid.boxes || deck.discretization.degenerate == deck::DegeneratePoints::keep) continue;
     if (*section->horizon > spacings[b] && *section->horizon < 20 * spacings[b]) continue;

@@ -14,10 +14,13 @@ namespace strut {
 
 bool is_quadratic(const deck::Material& material);
 
-// The section of Blocks that names a block of the mesh; "all" and "default" apply to blocks that no section names.
+// The section of Blocks that names a block of the mesh; "all" and "default" apply to blocks that no section names,
+// and the first section to blocks without points, which need no name.
 const deck::Block* section_of(const deck::Deck& deck, const std::string& block);
 
-void check_blocks(const deck::Deck& deck, const PointCloud& cloud, deck::Problems& problems);
+// `spacings`: mean_spacings.
+void check_blocks(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
+                  deck::Problems& problems);
 
 // The mean spacing of each block's points over all ranks, m; 0 if it has none.
 std::vector<double> mean_spacings(const PointCloud& cloud, const Communicator& communicator);

@@ -1,11 +1,9 @@
 #include "setup/changes_in_time.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
-#include <string>
 
+#include "base/math/time_integral.hpp"
 #include "topology/bounding_box.hpp"
 
 namespace strut {
@@ -35,21 +33,6 @@ double change_at_once(const OfTime& of_time, double from, const Steps& steps) {
   const double before = std::abs(of_time(from) - of_time(std::max(steps.start, from - step)));
   const double after = std::abs(of_time(to + step) - of_time(to));
   return 3 * (before + after) < change ? change : 0;
-}
-
-// The numbers of a text, those of tables, too.
-std::vector<double> numbers_in(const std::string& text) {
-  std::vector<double> numbers;
-  const char *here = text.data(), *end = here + text.size();
-  while (here != end) {
-    double number = 0;
-    const bool begins = std::isdigit(static_cast<unsigned char>(*here)) != 0 || *here == '.';
-    const auto [rest, failure] = std::from_chars(here, end, number);
-    const bool is_number = begins && failure == std::errc();
-    if (is_number) numbers.push_back(number);
-    here = is_number ? rest : here + 1;
-  }
-  return numbers;
 }
 
 }  // namespace

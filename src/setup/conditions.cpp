@@ -248,7 +248,8 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
   if (!deck.start_from && !displaces) scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   if (mesh_time == deck.solver.initial_time) {  // else they have been told before the equilibria
     scene.warnings += sudden_motions(deck, points, scene.body) + sampled_pulses(deck, points, scene.body) +
-                      values_between_load_steps(deck, points, scene.body);
+                      values_between_load_steps(deck, points, scene.body) +
+                      temperatures_without_effect(deck, scene.body, points);
   }
   // Held points: for a body that continues behind a plane as its mirror image, only the points on the plane.
   for (std::size_t c = 0; c < points.size(); ++c) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -347,6 +348,39 @@ std::string let_the_last_count(const deck::Deck& deck, const Body& body, PointsO
               " of its points, one of them at " + place_text(found.one) + ", are of '" + other.name +
               "', too, which stands later and alone counts there, as in Peridigm\n";
     }
+  }
+  return text;
+}
+
+std::string temperatures_without_effect(const deck::Deck& deck, const Body& body, const PointsOfConditions& points) {
+  const auto heat = [&](std::size_t c) { return of_kind<PrescribedTemperature>(deck.conditions[c]); };
+  const auto changes = [&](std::size_t c) { return heat(c) && heat(c)->value.depends_on_time(); };
+  PointsOfConditions left(points.size()), kept(points.size());
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    if (!heat(c)) continue;
+    left[c] = points[c];
+    for (std::size_t later = c + 1; later < points.size(); ++later) {
+      if (!heat(later)) continue;
+      std::erase_if(left[c], [&](int i) { return std::ranges::binary_search(points[later], i); });
+    }
+    for (std::size_t before = 0; before < c; ++before) {
+      if (changes(before)) std::ranges::copy(common(left[c], points[before]), std::back_inserter(kept[c]));
+    }
+  }
+  const std::vector<FoundPoints> found_left = found_points(body, left), found_kept = found_points(body, kept);
+  std::string text;
+  bool changed_before = false;  // else the deck has told it
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    if (!heat(c)) continue;
+    const std::string path = "WARNING: Boundary Conditions > " + deck.conditions[c].name;
+    if (found_left[c].count == 0) {
+      text += path + ": has no effect: later conditions of its type have all its points, where the last one counts\n";
+    } else if (changed_before && !changes(c) && !deck.start_from && found_kept[c].count == 0) {
+      text += path +
+              " > Value: has no effect: points expand by the change of T since the initial time; expected a function "
+              "of t\n";
+    }
+    changed_before = changed_before || changes(c);
   }
   return text;
 }

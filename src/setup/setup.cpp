@@ -137,8 +137,9 @@ PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, dec
     return {};
   }
   check_names(cloud, communicator, problems);
-  check_blocks(deck, cloud, problems);
-  check_horizons(deck, cloud, mean_spacings(cloud, communicator), problems);
+  const std::vector<double> spacings = mean_spacings(cloud, communicator);
+  check_blocks(deck, cloud, spacings, problems);
+  check_horizons(deck, cloud, spacings, problems);
   check_places(deck, cloud, communicator, problems);
   add_node_sets(deck.node_sets, cloud, communicator, problems);
   check_conditions(deck, cloud, communicator, problems);

@@ -209,7 +209,6 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
     const bool strains = !values.empty();
     const auto* motion = std::get_if<PrescribedMotion>(&deck.conditions[c].kind);
     const bool is_velocity = motion && motion->is_velocity;
-    const int seen = is_velocity ? looks_between / 2 : 0;  // a velocity is taken in the middle of each load step
     for (Function& way : ways_of(deck.conditions[c])) values.push_back(std::move(way));
     for (Function& load : sampled_values(deck.conditions[c])) values.push_back(std::move(load));
     for (const Function& value : values) {
@@ -217,17 +216,22 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
       double at_load_steps = 0, between = 0, time = 0, zero = 0;
       at_corners(value, where(points[c], body), [&](const OfTime& of_time) {
         if (strains) zero = of_time(start);
+        const double apart = duration / (looks_between * load_steps);
+        double way = 0;  // of a velocity, up to t
         for (int k = 0; k <= looks_between * load_steps; ++k) {
-          const double t = start + duration * k / (looks_between * load_steps), size = std::abs(of_time(t) - zero);
-          if (k % looks_between == seen) at_load_steps = std::max(at_load_steps, size);
+          const double t = start + k * apart, size = std::abs(is_velocity ? way : of_time(t) - zero);
+          if (k % looks_between == 0) at_load_steps = std::max(at_load_steps, size);
           if (size > between) between = size, time = t;
+          if (is_velocity) way += apart * of_time(t + 0.5 * apart);
         }
       });
       if (!(between > told * at_load_steps + round_off * std::abs(zero))) continue;
-      text << "WARNING: " << value.path() << (strains ? ": changes by " : ": reaches ") << between << " at t = " << time
-           << " s, " << (is_velocity ? "" : "between two load steps, ") << "and no more than " << at_load_steps
-           << (is_velocity ? " in the middle of any load step" : " at any of them")
-           << ": the equilibria do not see it; is it meant, with " << load_steps << " load steps?\n";
+      text << "WARNING: " << value.path()
+           << (strains       ? ": changes by "
+               : is_velocity ? ": its integral reaches "
+                             : ": reaches ")
+           << between << " at t = " << time << " s, between two load steps, and no more than " << at_load_steps
+           << " at any of them: the equilibria do not see it; is it meant, with " << load_steps << " load steps?\n";
     }
   }
   return text.str();

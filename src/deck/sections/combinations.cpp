@@ -120,21 +120,18 @@ void check_initial_strains(const std::vector<Condition>& conditions, const std::
 
 void check_temperatures(const std::vector<Material>& materials, const std::vector<Condition>& conditions,
                         bool has_expanded, Problems& problems) {
-  std::vector<const Condition*> heating;
-  bool changes = has_expanded;
+  bool heats = false, changes = has_expanded;
   for (const Condition& condition : conditions) {
     const auto* one = std::get_if<PrescribedTemperature>(&condition.kind);
     if (!one) continue;
-    heating.push_back(&condition);
+    heats = true;
     changes = changes || one->value.depends_on_time();
     check_condition(materials, "Boundary Conditions > " + condition.name, problems);
-  }
-  for (const Condition* one : heating) {
-    if (changes) break;
-    problems.note("Boundary Conditions > " + one->name + " > Value",
+    if (changes) continue;  // a constant one may keep points of an earlier one as they are: set-up knows
+    problems.note("Boundary Conditions > " + condition.name + " > Value",
                   "has no effect: points expand by the change of T since the initial time; expected a function of t");
   }
-  if (!heating.empty()) return;
+  if (heats) return;
   for (const Material& material : materials) {
     if (material.thermal_expansion == 0) continue;
     problems.note("Materials > " + material.name + " > Thermal Expansion Coefficient",

@@ -76,6 +76,8 @@ void read_correspondence(const Values& values, Material& material, Problems& pro
   material.stabilization_coefficient = values[stabilization_coefficient];
   material.linear_viscosity = values[linear_viscosity];
   material.quadratic_viscosity = values[quadratic_viscosity];
+  if (residual_of(material.stabilization) == ResidualKind::none && values.given(stabilization_coefficient))
+    problems.note(values.path_to(stabilization_coefficient), "has no effect: Stabilization 'None' has no springs");
   if (material.formulation != Formulation::quadratic) return;
   material.stabilization = NoStabilization();
   check_needs_no_stabilization(values, problems);

@@ -374,6 +374,25 @@ TEST(Temperature, ThatStaysIsToldToHaveNoEffect) {
   EXPECT_FALSE(is_told("393", true));
 }
 
+// The last one counts at a point: those that have no point left are told, and constant ones that keep none as it is.
+TEST(Temperature, WithoutEffectBesideOthersIsTold) {
+  const auto warnings_of = [](const std::string& conditions) {
+    Parts parts;
+    parts.materials = of_copper(of_points, "2e-5");
+    parts.conditions = conditions;
+    const RunFolder folder;
+    return Simulation(folder, parts).scene.warnings;
+  };
+  const std::string taken = "Boundary Conditions > warm top: has no effect: later conditions",
+                    constant = "Boundary Conditions > warm foot > Value: has no effect: points expand";
+  EXPECT_NE(warnings_of(warmed("top", "293 + 100*t") + warmed("all", "293")).find(taken), std::string::npos);
+  EXPECT_NE(warnings_of(warmed("top", "293 + 100*t") + warmed("foot", "393")).find(constant), std::string::npos);
+  for (const auto& effective : {warmed("all", "293 + 100*t") + warmed("foot", "293"),
+                                warmed("top", "293 + 100*t") + warmed("foot", "293 + t")}) {
+    EXPECT_EQ(warnings_of(effective).find("has no effect"), std::string::npos) << warnings_of(effective);
+  }
+}
+
 // A value that is no number later on ends the run with its path.
 std::string end_of(const std::string& text) {
   const RunFolder folder;

@@ -38,6 +38,22 @@ TEST(Blocks, ThatBreakByStretchHaveStifferSprings) {
   EXPECT_EQ(coefficient_in(with_own(broken)), 0.07);
 }
 
+// Preprocessors leave such blocks.
+TEST(Blocks, WithoutPointsNeedNoName) {
+  const RunFolder folder;
+  const std::string text = changed(Parts().text(), key("Block Names", "all"), key("Block Names", "bar"));
+  const deck::Deck deck = deck::read(folder.write("deck.xml", text), folder.world);
+  PointCloud cloud;
+  cloud.block_names = {"bar", "void"};
+  deck::Problems none, problems;
+  check_blocks(deck, cloud, {1e-3, 0}, none);
+  EXPECT_EQ(none.text("deck.xml"), "");
+  EXPECT_EQ(block_materials(deck, cloud).size(), 2u);
+  EXPECT_EQ(block_bonds(deck, cloud).size(), 2u);
+  check_blocks(deck, cloud, {1e-3, 1e-3}, problems);
+  EXPECT_NE(problems.text("deck.xml").find("block 'void' of the mesh has no material"), std::string::npos);
+}
+
 std::string warnings_of(const std::string& text) {
   const RunFolder folder;
   return told_at_the_start(deck::read(folder.write("deck.xml", text), folder.world), folder.world).warnings;

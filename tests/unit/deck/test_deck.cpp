@@ -1,6 +1,7 @@
 // Decks that are right: every key into the structs, and every default.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -50,6 +51,17 @@ TEST(Deck, ReadsFormulationAndBondsAcrossVoids) {
   EXPECT_EQ(deck.materials[0].formulation, Formulation::quadratic);
   EXPECT_EQ(residual_of(deck.materials[0].stabilization), ResidualKind::none);
   EXPECT_EQ(deck.blocks[0].across_voids, std::optional(false));
+}
+
+TEST(Deck, TellsOfACoefficientBesideNoStabilization) {
+  const DeckFolder folder;
+  const std::string
+      none = R"(<Parameter name="Stabilization" type="string" value="None"/>)",
+      note = "Materials > steel > Stabilization Coefficient has no effect: Stabilization 'None' has no springs";
+  const auto notes = [&](const std::string& more) { return folder.read(changed(full_deck, none, none + more)).notes; };
+  EXPECT_EQ(
+      std::ranges::count(notes(R"(<Parameter name="Stabilization Coefficient" type="double" value="0.1"/>)"), note), 1);
+  EXPECT_EQ(std::ranges::count(notes(""), note), 0);
 }
 
 TEST(Deck, ReadsMaterials) {

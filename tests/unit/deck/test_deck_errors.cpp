@@ -519,9 +519,32 @@ TEST(DeckErrors, StrayElementsAndTextAreRefused) {
             "  Solver: stray text 'soon'");
 }
 
-// Some editors write a byte order mark, and Teuchos itself empty validators.
+TEST(DeckErrors, WhatAParameterContainsAndUnknownAttributesAreRefused) {
+  const DeckFolder folder;
+  const std::string density = R"(<Parameter name="Density" type="double" value="8960")";
+  ASSERT_NE(small_deck.find(density), std::string::npos);
+  const auto problem_of = [&](const std::string& instead) {
+    return folder.error(changed(small_deck, density + "/>", instead));
+  };
+  const std::string inside = "before its </Parameter>; expected <Parameter …/>, with nothing inside",
+                    place = "deck.xml: 1 problem\n  Materials > copper > Density: ";
+  EXPECT_EQ(problem_of(density + R"(><Parameter name="Linear Viscosity" type="double" value="1"/></Parameter>)"),
+            place + "'<Parameter …>' " + inside);
+  EXPECT_EQ(problem_of(density + ">2000</Parameter>"), place + "'2000' " + inside);
+  EXPECT_EQ(problem_of(density + R"( units="g/cm3"/>)"),
+            place + "unknown attribute 'units'; expected name, type, value");
+  EXPECT_EQ(folder.error(
+                changed(small_deck, R"(<ParameterList name="Solver">)", R"(<ParameterList name="Solver" value="1">)")),
+            "deck.xml: 1 problem\n  Solver: unknown attribute 'value'; expected name, type");
+}
+
+// Some editors write a byte order mark, and Teuchos itself empty validators and what it knows of a key.
 TEST(DeckErrors, HarmlessXmlIsAccepted) {
   const DeckFolder folder;
+  EXPECT_EQ(folder.error(changed(small_deck, R"(type="double" value="8960")",
+                                 R"(type="double" value="8960" docString="1 &lt; 2 = 'two' &quot;&gt;" id="7")"
+                                 R"( isUsed="true" isDefault="false")")),
+            "");
   EXPECT_EQ(folder.error("\xef\xbb\xbf" + small_deck), "");
   EXPECT_EQ(folder.error(changed(small_deck, "<ParameterList>", "<ParameterList name=\"ANONYMOUS\"><Validators/>")),
             "");

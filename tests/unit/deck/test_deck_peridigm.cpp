@@ -444,14 +444,19 @@ TEST(DeckOfPeridigm, SumsAndNearestPointsAreColumns) {
 TEST(DeckOfPeridigm, OtherFormsOfADeckAreRefused) {
   const DeckFolder folder;
   const std::string what =
-      ": this is neither XML nor YAML; expected <ParameterList>s, or 'Key: value' and indented sections (Peridigm's "
-      "text "
-      "with aprepro's {…} is not read)";
+      ": this is neither XML nor a form of YAML that is read; expected <ParameterList>s, or 'Key: value' and indented "
+      "sections (quoted keys, '<<' and sections after '-' are not read, nor Peridigm's text with aprepro's {…})";
   EXPECT_EQ(folder.error("Discretization\n   Type \"Exodus\"\n"), "deck.xml: 1 problem\n  line 2 column 4" + what);
   EXPECT_EQ(folder.error("Peridigm:\n  Solver:\n    Final Time: 1\n    Final Time: 2\n"),
             "deck.xml: 1 problem\n  line 5 column 1: Parameter \"Final Time\" is given twice; expected once");
   EXPECT_EQ(folder.error("Peridigm:\n  Solver:\n\tFinal Time: 1\n"),
             "deck.xml: 1 problem\n  line 3: indented by a tab; expected spaces, as YAML has them");
+  for (const char* value : {"bottom#1", "1000.0#kg", "'load#2'", "\"load #2\"", "table(t, 'a#1.csv')"}) {
+    EXPECT_EQ(
+        folder.error("Peridigm:\n  Solver: # times\n    Final Time: " + std::string(value) + "\n"),
+        "deck.xml: 1 problem\n  line 3: a '#' within a word or in quotes, which begins a comment here; expected a "
+        "blank before a comment, and names without '#'");
+  }
   EXPECT_EQ(folder.error(std::string(200, '[')),
             "deck.xml: 1 problem\n  YAML: more than a hundred levels; expected few");
 }
