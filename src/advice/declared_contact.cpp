@@ -129,7 +129,7 @@ std::vector<std::int64_t> parts_of(const Domain& domain, const std::vector<int>&
   std::vector<Vector> edges;
   for (int i = 0; i < domain.owned; ++i) edges.push_back(edges_on_lattice(domain, i));
   edges.resize(domain.sites.size());
-  domain.halo.exchange(edges);
+  domain.halo.exchange<reflect_direction>(edges);
   const auto mean_of = [](const Vector& one, const Vector& other) -> Vector {
     if (one.isZero(0) || other.isZero(0)) return Vector::Zero();
     return 0.5 * (one.cwiseAbs() + other.cwiseAbs());  // planes of symmetry turn their signs
