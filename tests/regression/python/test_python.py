@@ -421,10 +421,10 @@ class Tools(InFolder):
         self.assertGreater(os.path.getsize("block.png"), 10000)
 
     def test_the_stiffness_of_a_full_cube_is_hooke_s(self):
-        """With four layers at each face nothing is unstrained: what is left are the forces that the search leaves, 1e-6."""
+        """Two layers at each face are held, and 4³ points are free: what is left are the forces that the search leaves, 3e-6."""
         E, nu = 70e9, 0.3
         cube = strut.voxels(np.ones((8, 8, 8), bool), SPACING, name="block")
-        found = strut.stiffness({key: block.deck()[key] for key in ("Materials", "Blocks")}, cube, layers=4)
+        found = strut.stiffness({key: block.deck()[key] for key in ("Materials", "Blocks")}, cube, layers=2)
         shear, lame = E / (2 * (1 + nu)), E * nu / ((1 + nu) * (1 - 2 * nu))
         expected = np.diag([2 * shear] * 3 + [shear] * 3)
         expected[:3, :3] += lame
