@@ -267,13 +267,14 @@ TEST(QuadraticCorrespondence, HasLittleForceAtFreeSurfacesOfUniformStress) {
 }
 
 // Errors of the stiffness of the first six modes of round struts in any direction, of cells that know their moments.
-// The mean sizes over twenty struts are 10.3, 5.6, 4.4, 2.4 % with 2, 3, 4, 6 cells across (bench_thin_members); over
-// the first six of them they scatter by a tenth of that. No zero-energy mode beside the rigid motions.
+// The mean sizes over twenty struts are 10.2, 4.6, 3.3, 1.9 % with 2, 3, 4, 6 cells across (bench_thin_members), over
+// those of this test 9.9, 4.5, 3.2, 2.0 %. The limits are a twentieth above the latter, for parts of cut cells that the
+// round-off of another processor counts in or out. No zero-energy mode beside the rigid motions.
 // The program reports the largest error to users; the report is not twice too much. A frequency of torsion gives no
 // stiffness: the mass of a cell is in its middle, the moment of inertia short by 1/n².
 TEST(QuadraticCorrespondence, KeepsTheStiffnessOfThinStrutsAsIsTold) {
   constexpr int torsion = 2;
-  for (const auto& [across, struts, limit] : {std::tuple(2, 6, 0.13), {3, 6, 0.09}, {4, 6, 0.07}, {6, 2, 0.04}}) {
+  for (const auto& [across, struts, limit] : {std::tuple(2, 6, 0.104), {3, 6, 0.047}, {4, 6, 0.034}, {6, 2, 0.0213}}) {
     double sum = 0, largest = 0;
     for (const Placement& placement : random_placements(struts)) {
       Body body = body_of(round_cylinder(across, placement, Cells::cut), "quadratic");
