@@ -153,6 +153,22 @@ std::string summary_of(const Body& body, const Section& section, const std::vect
   return text;
 }
 
+// A horizon in parts of the root of a cell's volume, such as 3.015, loses the neighbors at whole spacings along a
+// longer edge; the shear moduli then depend on the direction by more than they do on a lattice of cubes.
+std::string note_on_stretch(const Body& body) {
+  if (body.shape != Body::Shape::box || body.grading > 1) return "";
+  const Vector h = grid_of(body.size, body.spacing, 1).spacing();
+  const double stretch = h.maxCoeff() / std::cbrt(h.prod());
+  if (stretch < 1.005) return "";
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "  note: cells of %.6g %.6g %.6g m: a Horizon Factor of 3.015 counts the root of their volume, and loses "
+      "neighbors at 3 spacings\n",
+      h[0], h[1], h[2]);
+  return text;
+}
+
 template <class Item>
 std::vector<std::string> names_of(const std::vector<Item>& items) {
   std::vector<std::string> names;
@@ -175,7 +191,7 @@ io::Mesh extruded(const Body& body, std::string& summary) {
   const double across = body.grading > 1 ? body.spacing : height(body) / static_cast<double>(levels.size() - 1);
   const Section section = section_of(body, across);
   const Extrusion extrusion{section, levels, taper_of(body)};
-  summary = summary_of(body, section, levels);
+  summary = summary_of(body, section, levels) + note_on_stretch(body);
   return extrusion.hexahedra();
 }
 

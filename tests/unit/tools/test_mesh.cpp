@@ -188,6 +188,18 @@ TEST_F(MeshTool, GradedLayersGrowUpToTheCoarsestAndFillTheLength) {
   EXPECT_NEAR(volume(points()), 0.0324 * 32 * 0.0032 * 0.0032 * std::sin(pi / 32), 1e-15);
 }
 
+// Three spacings along z are 3.015 roots of the volume of a cell 0.75 % too long.
+TEST_F(MeshTool, CellsThatLoseNeighborsAtWholeSpacingsAreNoted) {
+  const auto is_noted = [&](const std::string& size) {
+    return make("shape = box\nsize = 4 4 " + size + "\nspacing = 1\n").text.find("loses neighbors") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(is_noted("3.6"));
+  EXPECT_TRUE(is_noted("4.035"));
+  EXPECT_FALSE(is_noted("4.025"));
+  EXPECT_FALSE(is_noted("4"));
+}
+
 TEST_F(MeshTool, GradedBoxHasTheSamePointsAsSpheres) {
   const std::string box = "shape = box\nsize = 2 2 9\nspacing = 1\ngrading = 1.5\n";
   const PointCloud hexahedra = made(box);
