@@ -1,9 +1,8 @@
 // The quantities that a free body must keep while it moves: momentum, and the balance of energy.
 #pragma once
 
-#include <algorithm>
-
 #include "integrators/explicit/central_difference.hpp"
+#include "larger.hpp"
 
 namespace strut {
 
@@ -21,8 +20,8 @@ inline Conservation run_free(CentralDifference& solver, double final_time) {
     found.last = solver.ledger();
     if (solver.steps() == 0) start = found.last.momentum;
     const double drift = (found.last.momentum - start).norm() / start.norm();
-    found.momentum_drift = std::max(found.momentum_drift, drift);
-    found.balance_error = std::max(found.balance_error, found.last.balance_error);
+    found.momentum_drift = larger(found.momentum_drift, drift);
+    found.balance_error = larger(found.balance_error, found.last.balance_error);
     if (solver.time() >= final_time) return found;
     solver.advance_position(true);
   }

@@ -1,12 +1,12 @@
 // Bodies of points on a lattice, for tests.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
 
 #include "add_point.hpp"
+#include "larger.hpp"
 #include "mechanics/make_body.hpp"
 #include "mechanics/mechanics.hpp"
 #include "topology/partition.hpp"
@@ -38,12 +38,12 @@ void deform(Body& body, const std::function<Vector(const Vector&)>& place);
 // True if the whole family of X, and the families of its neighbors, lie inside the lattice.
 bool is_deep(const LatticeSpec& spec, const Vector& X, double margin);
 
-// The largest value over the owned points of all ranks.
+// The largest value over the owned points of all ranks; NaN where one is, on its rank at least.
 template <class Value>
 double largest_over(const Body& body, Value&& value) {
   double largest = 0;
-  for (int i = 0; i < body.owned(); ++i) largest = std::max(largest, value(i));
-  return body.domain.communicator.max(largest);
+  for (int i = 0; i < body.owned(); ++i) largest = larger(largest, value(i));
+  return larger(largest, body.domain.communicator.max(largest));
 }
 
 }  // namespace strut

@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "integrators/explicit/central_difference.hpp"
+#include "larger.hpp"
 #include "lattice.hpp"
 
 namespace strut {
@@ -44,7 +45,7 @@ void expect_dispersion(Body& body, const LatticeSpec& spec, const Vector& direct
     if (!is_deep(spec, body.domain.reference(i), 3 * spec.horizon)) return 0.0;
     ++deep;
     const Vector expected = closed_form(i);
-    scale = std::max(scale, expected.norm());
+    scale = larger(scale, expected.norm());
     return (result[i] - expected * phase(i)).norm();
   });
   EXPECT_GT(world.sum(static_cast<std::int64_t>(deep)), 20);

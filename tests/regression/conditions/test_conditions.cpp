@@ -6,6 +6,7 @@
 
 #include "regression/stiff_ended_bar.hpp"
 #include "regression/stretched.hpp"
+#include "verification/larger.hpp"
 
 namespace strut::regression {
 namespace {
@@ -16,9 +17,9 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 double worst(const Simulation& run, const std::function<bool(int)>& member, const std::function<double(int)>& value) {
   double largest = -1;
   for (int i = 0; i < run.scene.body.owned(); ++i) {
-    if (member(i)) largest = std::max(largest, std::abs(value(i)));
+    if (member(i)) largest = larger(largest, std::abs(value(i)));
   }
-  largest = run.scene.body.domain.communicator.max(largest);
+  largest = larger(largest, run.scene.body.domain.communicator.max(largest));
   EXPECT_GE(largest, 0) << "no point is a member";
   return largest;
 }
@@ -99,7 +100,7 @@ TEST(Condition, WorkOfPrescribedMotionBecomesEnergy) {
   Simulation run(folder, parts);
   double largest = 0;
   const Ledger end = run.go([&](const Ledger& now) {
-    if (now.time > 2e-6) largest = std::max(largest, now.balance_error);  // before that there is hardly an energy
+    if (now.time > 2e-6) largest = larger(largest, now.balance_error);  // before that there is hardly an energy
   });
   EXPECT_GT(end.external, 0);
   EXPECT_NEAR(end.kinetic + end.elastic + end.stabilization, end.external, 1e-3 * end.external);
@@ -141,7 +142,7 @@ TEST(Condition, ImpulseOfABodyForceDoesNotDependOnTheSteps) {
     const double force = 3e10 * run.volume();
     double largest = 0;
     const Ledger end =
-        run.go([&](const Ledger& now) { largest = std::max(largest, std::abs(now.momentum[2] - force * now.time)); });
+        run.go([&](const Ledger& now) { largest = larger(largest, std::abs(now.momentum[2] - force * now.time)); });
     EXPECT_EQ(end.time, 5e-6);
     EXPECT_NEAR(end.momentum[2], force * 5e-6, 1e-11 * force * 5e-6) << step;  // round-off, as above
     // Where the step changes, the mean of the velocities before and after is off by a quarter of the change.
@@ -185,13 +186,13 @@ TEST(Condition, SymmetryPlaneWithinABodyKeepsItsPoints) {
   EXPECT_EQ(run.advice.warnings.find("Boundary Conditions > low"), std::string::npos) << "plane strain is meant";
   double largest = 0;
   run.go([&](const Ledger&) {
-    largest = std::max(largest, worst(run, every, [&](int i) { return run.body().displacement(i)[2]; }));
-    largest = std::max(largest, worst(
-                                    run, [&](int i) { return run.in_set(i, "diagonal"); },
-                                    [&](int i) {
-                                      const Vector u = run.body().displacement(i);
-                                      return u[0] + u[1];
-                                    }));
+    largest = larger(largest, worst(run, every, [&](int i) { return run.body().displacement(i)[2]; }));
+    largest = larger(largest, worst(
+                                  run, [&](int i) { return run.in_set(i, "diagonal"); },
+                                  [&](int i) {
+                                    const Vector u = run.body().displacement(i);
+                                    return u[0] + u[1];
+                                  }));
   });
   EXPECT_LT(largest, 1e-12 * 6e-3);  // of the block's size: some 50 additions to places, each rounded to 1e-16
   // The points do move along their planes, and off them where nothing holds them.
@@ -229,7 +230,7 @@ double reflected_part(const std::string& end, int stiff_layers = 0, const std::s
   parts.times = key("Final Time", std::to_string(1e6 * 180e-3 / speed) + "e-6");
   Simulation run(folder, parts);
   double most = 0;
-  const Ledger at_end = run.go([&](const Ledger& now) { most = std::max(most, now.kinetic + now.elastic); });
+  const Ledger at_end = run.go([&](const Ledger& now) { most = larger(most, now.kinetic + now.elastic); });
   EXPECT_LT(at_end.balance_error, 1e-3);
   EXPECT_TRUE(stiff_layers == 0 || run.solver.most_substeps() > 1);
   return std::sqrt((at_end.kinetic + at_end.elastic) / most);
@@ -297,7 +298,7 @@ void expect_energy_to_fall(const std::string& material, const std::vector<std::s
       put_in = least = std::max(put_in, energy);
       return;
     }
-    rise = std::max(rise, energy - least), least = std::min(least, energy);
+    rise = larger(rise, energy - least), least = std::min(least, energy);
   });
   // Steps that are halved and subcycled once in a while swing by so much of the energy.
   EXPECT_LT(rise, 0.01 * put_in) << faces.size() << material;
@@ -407,7 +408,7 @@ class Wall {
     push *= 0.5 * both / kick;
     impulse_ = before_ + part * push;
     before_ += push;
-    worst_balance_ = std::max(worst_balance_, now.balance_error);
+    worst_balance_ = larger(worst_balance_, now.balance_error);
   }
 
   // Over all ranks and steps so far.

@@ -9,6 +9,7 @@
 #include "regression/bodies.hpp"
 #include "regression/checkpoints.hpp"
 #include "run/simulation.hpp"
+#include "verification/larger.hpp"
 
 namespace strut::regression {
 namespace {
@@ -61,8 +62,8 @@ double difference(const std::vector<Vector>& some, const std::vector<Vector>& al
                   const Vector& shift = Vector::Zero()) {
   double most = 0, largest = 0;
   for (std::size_t i = 0; i < some.size(); ++i) {
-    most = std::max(most, (some[i] - all[i] - shift).norm());
-    largest = std::max(largest, all[i].norm());
+    most = larger(most, (some[i] - all[i] - shift).norm());
+    largest = larger(largest, all[i].norm());
   }
   return most / largest;
 }
@@ -84,8 +85,8 @@ double apart(const std::vector<Vector>& some, const std::vector<Vector>& all) {
   double most = 0, largest = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::size_t line = i / (3 * cells), place = i % cells;
-    most = std::max(most, (some[line * cells + place] - all[i]).norm());
-    largest = std::max(largest, all[i].norm());
+    most = larger(most, (some[line * cells + place] - all[i]).norm());
+    largest = larger(largest, all[i].norm());
   }
   EXPECT_GT(largest, 1e-5);
   return most / largest;
@@ -186,8 +187,8 @@ TEST_P(Notch, AtASideHasItsSurface) {
   double most = 0, largest = 0;
   visit(3 * cells, [&](const auto& cell) {
     for (int part = 0; part < parts_of_cell; ++part) {
-      most = std::max(most, (some[places.at(cell) * parts_of_cell + part] - all[n]).norm());
-      largest = std::max(largest, all[n++].norm());
+      most = larger(most, (some[places.at(cell) * parts_of_cell + part] - all[n]).norm());
+      largest = larger(largest, all[n++].norm());
     }
   });
   EXPECT_GT(largest, 1e-5);
@@ -224,7 +225,7 @@ TEST(PeriodicContact, OfSurfacesIsThatOfALongBody) {
   double most = 0, struck = 0;
   for (std::size_t i = 0; i < found[1].size(); ++i) {
     const std::size_t line = i / (3 * cells), place = i % cells;
-    most = std::max(most, (found[0][line * cells + place] - found[1][i]).norm());
+    most = larger(most, (found[0][line * cells + place] - found[1][i]).norm());
     if (line < 9) struck = std::max(struck, std::abs(found[1][i][0]));  // of the lower bar, by friction
   }
   if (found[1].empty()) return;  // other ranks

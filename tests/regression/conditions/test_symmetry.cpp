@@ -5,6 +5,7 @@
 
 #include "regression/bodies.hpp"
 #include "run/simulation.hpp"
+#include "verification/larger.hpp"
 
 namespace strut::regression {
 namespace {
@@ -114,8 +115,8 @@ double difference(const Parts& parts, const std::function<std::string(const Tens
   EXPECT_EQ(some.size(), places.size());
   double most = 0, largest = 0;
   for (std::size_t i = 0; i < some.size(); ++i) {
-    most = std::max(most, (some[i] - all[places[i]]).norm());
-    largest = std::max(largest, all[places[i]].norm());
+    most = larger(most, (some[i] - all[places[i]]).norm());
+    largest = larger(largest, all[places[i]].norm());
   }
   EXPECT_GT(largest, 0);
   return most / largest;

@@ -6,6 +6,7 @@
 #include "regression/checkpoints.hpp"
 #include "regression/stiff_ended_bar.hpp"
 #include "run/simulation.hpp"
+#include "verification/larger.hpp"
 
 namespace strut::regression {
 namespace {
@@ -77,7 +78,7 @@ Files equilibria(Parts parts, const std::string& steps, const Lattice& lattice =
 
 double largest(const std::vector<double>& values, double less = 0) {
   double most = 0;
-  for (const double value : values) most = std::max(most, std::abs(value - less));
+  for (const double value : values) most = larger(most, std::abs(value - less));
   return most;
 }
 
@@ -134,7 +135,7 @@ TEST_P(Warmed, FastExpansionKeepsTheBalance) {
   const RunFolder folder;
   Simulation run(folder, parts);
   double largest = 0;
-  const Ledger end = run.go([&](const Ledger& now) { largest = std::max(largest, now.balance_error); });
+  const Ledger end = run.go([&](const Ledger& now) { largest = larger(largest, now.balance_error); });
   EXPECT_GT(end.external, 1e-4);
   EXPECT_GT(end.kinetic, 1e-2 * end.external);
   EXPECT_LT(largest, 2e-2);
@@ -205,7 +206,7 @@ TEST_P(BarBetweenWalls, IsAsPressed) {
                &other = pressed.fields.at(std::string("Cauchy_Stress") + axis);
     double most = 0;
     for (std::size_t i = 0; i < one.size(); ++i)
-      most = std::max(most, std::abs(one[i] * (GetParam().adds_up() ? 1.01 : 1) - other[i]));
+      most = larger(most, std::abs(one[i] * (GetParam().adds_up() ? 1.01 : 1) - other[i]));
     // Springs of a stabilization grow by 1 + ε, all other forces by its square: 1 % of the small part that they carry.
     EXPECT_LT(most, (has_springs ? 1e-3 : 1e-5) * 0.01 * modulus) << axis;
   }

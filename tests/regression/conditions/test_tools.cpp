@@ -5,6 +5,7 @@
 
 #include "regression/bodies.hpp"
 #include "run/simulation.hpp"
+#include "verification/larger.hpp"
 
 namespace strut::regression {
 namespace {
@@ -48,7 +49,7 @@ TEST(RigidTool, MovingPlaneIsPrescribedMotionOfWhatItPresses) {
   Simulation walls(folder, parts);
   double worst_balance = 0;
   const Ledger pressed = walls.go([&](const Ledger& now) {
-    if (now.time > 2e-6) worst_balance = std::max(worst_balance, now.balance_error);  // before, hardly an energy
+    if (now.time > 2e-6) worst_balance = larger(worst_balance, now.balance_error);  // before, hardly an energy
   });
   parts.node_sets = key("first", "z &lt; 1e-3") + key("last", "z &gt; 5e-3");
   parts.conditions = along("low", "Prescribed Displacement", "first", "z", "0") +
@@ -191,7 +192,7 @@ TEST(RigidTool, BeltAcceleratesWhatSlidesOnIt) {
   Simulation run(folder, parts);
   double worst_balance = 0, fastest = 0;
   const Ledger end = run.go([&](const Ledger& now) {
-    if (now.time > 5e-6) worst_balance = std::max(worst_balance, now.balance_error);
+    if (now.time > 5e-6) worst_balance = larger(worst_balance, now.balance_error);
     for (int i = 0; i < run.body().owned(); ++i) fastest = std::max(fastest, run.body().velocity[i][0]);
   });
   ASSERT_LT(run.world().max(fastest), speed);
@@ -242,8 +243,8 @@ TEST(FreeTool, KeepsMomentumAndEnergyWithTheBodyThatItStrikes) {
   double worst_momentum = 0, worst_balance = 0, pushed = 0;
   run.go([&](const Ledger& now) {
     const double of_punch = 4e-3 * punch.mid_steps.velocity(punch.before, punch.velocity)[2];
-    worst_momentum = std::max(worst_momentum, std::abs(now.momentum[2] + of_punch - momentum));
-    worst_balance = std::max(worst_balance, now.balance_error);
+    worst_momentum = larger(worst_momentum, std::abs(now.momentum[2] + of_punch - momentum));
+    worst_balance = larger(worst_balance, now.balance_error);
     pushed = std::max(pushed, now.momentum[2]);
   });
   EXPECT_GT(pushed, 0.1 * momentum);
@@ -268,7 +269,7 @@ TEST(FreeTool, SlowsDownAsSaintVenantsMassOnABar) {
   double worst = 0;
   run.go([&](const Ledger& now) {
     const double expected = speed * std::exp(-density * c * area * now.time / mass);
-    worst = std::max(worst, std::abs(punch.velocity[2] - expected));
+    worst = larger(worst, std::abs(punch.velocity[2] - expected));
   });
   EXPECT_LT(std::exp(-density * c * area * end / mass), 0.7) << "it is slowed down by more than the error";
   // The layer that it strikes, 0.7 % of its mass, takes its velocity at once; the front is smeared over some layers.

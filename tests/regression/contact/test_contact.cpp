@@ -7,6 +7,7 @@
 
 #include "regression/bodies.hpp"
 #include "run/report.hpp"
+#include "verification/larger.hpp"
 
 namespace strut::regression {
 namespace {
@@ -92,9 +93,9 @@ void expect_exchange(const std::string& contact) {
   double start = 0, drift = 0, largest_balance = 0, touched = 0;
   const Ledger end = run.go([&](const Ledger& now) {
     if (now.time == 0) start = now.momentum[2];
-    drift = std::max(drift, std::abs(now.momentum[2] - start));
-    largest_balance = std::max(largest_balance, now.balance_error);
-    touched = std::max(touched, -now.contact);
+    drift = larger(drift, std::abs(now.momentum[2] - start));
+    largest_balance = larger(largest_balance, now.balance_error);
+    touched = larger(touched, -now.contact);
   });
   const double kinetic = 0.5 * 20 * std::abs(start);
   EXPECT_GT(touched, 0.2 * kinetic) << "they did not meet";
@@ -128,7 +129,7 @@ TEST(Contact, StiffBounceKeepsItsEnergyAsTheStepFalls) {
     double worst = 0, kinetic = 0;
     const Ledger end = run.go([&](const Ledger& now) {
       if (now.time == 0) kinetic = now.kinetic;
-      worst = std::max(worst, now.balance_error);
+      worst = larger(worst, now.balance_error);
     });
     EXPECT_LT(end.kinetic, 0.95 * kinetic) << "they have met";
     return worst;
@@ -156,8 +157,8 @@ TEST(Contact, AFirstTouchIsForeseen) {
       Simulation run(folder, parts);
       double worst = 0, touched = 0;
       run.go([&](const Ledger& now) {
-        worst = std::max(worst, now.balance_error);
-        touched = std::max(touched, std::abs(now.contact));
+        worst = larger(worst, now.balance_error);
+        touched = larger(touched, std::abs(now.contact));
       });
       EXPECT_GT(touched, 0) << height << law;
       EXPECT_LT(worst, 0.64) << height << law;
@@ -253,7 +254,7 @@ TEST(Contact, FrictionKeepsTheAngularMomentum) {
     double thrown = 0, worst = 0;
     run.go([&](const Ledger& now) {
       if (now.time == 0) start = angular_momentum(run), thrown = momentum(run, 0)[0];
-      worst = std::max(worst, (angular_momentum(run) - start).norm());
+      worst = larger(worst, (angular_momentum(run) - start).norm());
     });
     EXPECT_LT(momentum(run, 0)[0], 0.97 * thrown) << "it rubs";
     EXPECT_LT(worst, 1e-12 * start.norm());
@@ -406,7 +407,7 @@ TEST(Contact, StiffnessOfInteractionsIsTheLargestOverRanks) {
     parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-10") + parts.conditions;
     Simulation run(folder, parts);
     double most = 0;
-    run.go([&](const Ledger&) { most = std::max(most, run.solver.contact().stiffness()); });
+    run.go([&](const Ledger&) { most = larger(most, run.solver.contact().stiffness()); });
     return most;
   };
   Parts parts = parts_with(folder, pair(1, 0));

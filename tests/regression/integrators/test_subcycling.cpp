@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "regression/stiff_ended_bar.hpp"
+#include "verification/larger.hpp"
 
 namespace strut::regression {
 namespace {
@@ -53,7 +54,7 @@ TEST(Subcycling, LeavesLoadsOnABodyInRigidMotionAsTheyAre) {
     const Body& body = run.body();
     double apart = 0;
     const Ledger end = run.go([&](const Ledger&) {
-      for (int i = 0; i < body.owned(); ++i) apart = std::max(apart, (body.velocity[i] - body.velocity[0]).norm());
+      for (int i = 0; i < body.owned(); ++i) apart = larger(apart, (body.velocity[i] - body.velocity[0]).norm());
     });
     EXPECT_GT(run.solver.most_substeps(), 1);
     // A load that ends suddenly does so within a substep or two.
@@ -101,7 +102,7 @@ TEST(Subcycling, LeavesContactForcesOnABodyAtRestAsTheyAre) {
   double thrown = 0, drift = 0;
   run.go([&](const Ledger& now) {
     if (now.time == 0) thrown = now.momentum[2];
-    drift = std::max(drift, std::abs(now.momentum[2] - thrown));
+    drift = larger(drift, std::abs(now.momentum[2] - thrown));
   });
   EXPECT_GT(run.solver.most_substeps(), 1);
   EXPECT_GT(run.body().velocity.size(), 0u);
@@ -118,7 +119,7 @@ TEST(Subcycling, OfWhatIsPushedKeepsTheEnergy) {
     parts.conditions += tool;
     Simulation run(folder, parts);
     double worst = 0;
-    run.go([&](const Ledger& now) { worst = std::max(worst, now.balance_error); });
+    run.go([&](const Ledger& now) { worst = larger(worst, now.balance_error); });
     EXPECT_GT(run.solver.most_substeps(), 1) << "before they meet";
     return worst;
   };

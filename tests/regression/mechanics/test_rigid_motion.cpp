@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "regression/bodies.hpp"
+#include "verification/larger.hpp"
 
 namespace strut::regression {
 namespace {
@@ -83,8 +84,8 @@ TEST_P(Undisturbed, BodiesAreSkippedUntilTheyAreReached) {
   for (const double time : all.reached) EXPECT_EQ(time, 0);
   double off = 0, largest = 0;
   for (std::size_t k = 0; k < all.places.size(); ++k) {
-    off = std::max(off, std::abs(some.places[k] - all.places[k]));
-    largest = std::max(largest, std::abs(all.places[k]));
+    off = larger(off, std::abs(some.places[k] - all.places[k]));
+    largest = larger(largest, std::abs(all.places[k]));
   }
   EXPECT_LT(off, 1e-12 * largest);
   EXPECT_NEAR(some.balance, all.balance, 1e-9);

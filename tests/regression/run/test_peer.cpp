@@ -14,6 +14,7 @@
 #include "io/exodus/exodus.hpp"
 #include "run/simulation.hpp"
 #include "unit/temporary_folder.hpp"
+#include "verification/larger.hpp"
 
 namespace strut {
 namespace {
@@ -87,8 +88,8 @@ double difference(const io::ExodusResult& mine, const io::ExodusResult& gold, co
   EXPECT_EQ(a.size(), b.size());
   double largest = 0, scale = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    largest = std::max(largest, std::abs(a[i] - b[i]));
-    scale = std::max(scale, std::abs(b[i]));
+    largest = larger(largest, std::abs(a[i] - b[i]));
+    scale = larger(scale, std::abs(b[i]));
   }
   return largest / scale;
 }
@@ -155,8 +156,8 @@ double difference_in_time(const io::ExodusResult& mine, const io::ExodusResult& 
   for (std::size_t f = 0; f < a.size(); ++f) {
     EXPECT_EQ(a[f].size(), b[f].size());
     for (std::size_t i = 0; i < std::min(a[f].size(), b[f].size()); ++i) {
-      largest = std::max(largest, std::abs(a[f][i] - b[f][i]));
-      scale = std::max(scale, std::abs(b[f][i]));
+      largest = larger(largest, std::abs(a[f][i] - b[f][i]));
+      scale = larger(scale, std::abs(b[f][i]));
     }
   }
   return largest / scale;

@@ -10,6 +10,7 @@
 #include "contact/search/search.hpp"
 #include "contact/surfaces.hpp"
 #include "topology/partition.hpp"
+#include "verification/larger.hpp"
 
 namespace strut::contact {
 namespace {
@@ -134,8 +135,8 @@ class Scene {
     double largest = 0, difference = 0;
     for (int i = 0; i < domain_.owned; ++i) {
       const Vector force = forces[i] * domain_.volume(i);
-      largest = std::max(largest, force.norm());
-      difference = std::max(difference, (force + with[i] - without[i]).norm());
+      largest = larger(largest, force.norm());
+      difference = larger(difference, (force + with[i] - without[i]).norm());
     }
     return {world_.max(difference), world_.max(largest)};
   }

@@ -7,6 +7,7 @@
 #include "conditions/prototype.hpp"
 #include "integrators/explicit/central_difference.hpp"
 #include "verification/each_formulation.hpp"
+#include "verification/larger.hpp"
 #include "verification/loading.hpp"
 
 namespace strut {
@@ -79,7 +80,7 @@ TEST_P(Warmed, ClampedBodyIsUnderPressure) {
                          [&](int i) {
                            const Symmetric& stress = body.points[i].stress;
                            double error = stress.tail<3>().norm();
-                           for (int c = 0; c < 3; ++c) error = std::max(error, std::abs(stress[c] + 3 * bulk * whole));
+                           for (int c = 0; c < 3; ++c) error = larger(error, std::abs(stress[c] + 3 * bulk * whole));
                            return adds_up() || GetParam().formulation == Formulation::quadratic ? 0.0 : error;
                          }),
             of_steps * 3 * bulk * whole);
@@ -96,7 +97,7 @@ TEST_P(Warmed, FastExpansionKeepsTheBalance) {
   for (;;) {
     solver.advance_velocity(6e-5);
     now = solver.ledger();
-    largest = std::max(largest, std::abs(now.gained) / now.largest);
+    largest = larger(largest, std::abs(now.gained) / now.largest);
     if (solver.time() >= 6e-5) break;
     solver.advance_position(true);
   }

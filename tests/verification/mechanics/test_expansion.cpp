@@ -6,6 +6,7 @@
 
 #include "mechanics/energies.hpp"
 #include "verification/each_formulation.hpp"
+#include "verification/larger.hpp"
 #include "verification/lattice.hpp"
 
 namespace strut {
@@ -45,7 +46,7 @@ double go(Body& body, int steps, const std::function<Vector(const Vector&, doubl
     deform(body, [&](const Vector& X) { return place(X, t); });
     advance_stress(body, 1.0 / steps, true, t);
     sum_forces(body, true);
-    forces = std::max(forces, largest_over(body, [&](int i) { return body.force_density[i].norm(); }));
+    forces = larger(forces, largest_over(body, [&](int i) { return body.force_density[i].norm(); }));
   }
   return forces;
 }

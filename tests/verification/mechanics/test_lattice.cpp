@@ -7,6 +7,7 @@
 
 #include "mechanics/kernels/group_tile.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
+#include "verification/larger.hpp"
 #include "verification/probes.hpp"
 
 namespace strut {
@@ -86,8 +87,8 @@ class LatticeOf : public testing::TestWithParam<Case> {
   double difference(const std::vector<double>& a, const std::vector<double>& b) const {
     double largest = 0, off = 0;
     for (std::size_t k = 0; k < a.size(); ++k) {
-      largest = std::max(largest, std::abs(b[k]));
-      off = std::max(off, std::abs(a[k] - b[k]));
+      largest = larger(largest, std::abs(b[k]));
+      off = larger(off, std::abs(a[k] - b[k]));
     }
     return off / largest;
   }
@@ -173,7 +174,7 @@ TEST(ClusterLists, LanesAreTheSumsOfTheirPoints) {
   const ForceStates& states = body.force_states;
   const auto check = [&](const auto& lanes, int l, const auto& own) {
     double largest = 0;
-    for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(own.c[c]));
+    for (int c = 0; c < 3; ++c) largest = larger(largest, std::abs(own.c[c]));
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(lanes.c[c][l], own.c[c], 1e-12 * largest);
   };
   const bonds::LinearDecay decay;

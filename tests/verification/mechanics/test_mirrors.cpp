@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mechanics/mirror_forces.hpp"
+#include "verification/larger.hpp"
 #include "verification/probes.hpp"
 
 namespace strut {
@@ -68,8 +69,8 @@ class Mirrored : public testing::TestWithParam<Case> {
   static double difference(const std::vector<double>& quarter, const std::vector<double>& whole) {
     double largest = 0, most = 0;
     for (std::size_t k = 0; k < quarter.size(); ++k) {
-      largest = std::max(largest, std::abs(whole[k]));
-      if (is_in_quarter(static_cast<int>(k / 3))) most = std::max(most, std::abs(quarter[k] - whole[k]));
+      largest = larger(largest, std::abs(whole[k]));
+      if (is_in_quarter(static_cast<int>(k / 3))) most = larger(most, std::abs(quarter[k] - whole[k]));
     }
     return most / largest;
   }

@@ -1,6 +1,7 @@
 // How fast errors fall: F of smooth fields in space, inside and at a face; places in time.
 #include <gtest/gtest.h>
 
+#include "verification/larger.hpp"
 #include "verification/probes.hpp"
 
 namespace strut {
@@ -25,7 +26,7 @@ double slope_error(double horizon, int layer, const std::function<double(double)
     if (std::abs(body.domain.reference(i)[0] - x) > 0.1 * h) continue;
     const double error = body.points[i].deformation_gradient(0, 0) - 1 - exact_slope;
     least = std::min(least, error);
-    most = std::max(most, error);
+    most = larger(most, error);
   }
   least = world.min(least);
   most = world.max(most);

@@ -9,6 +9,7 @@
 #include "base/math/rotation.hpp"
 #include "integrators/explicit/central_difference.hpp"
 #include "mechanics/kernels/bonds.hpp"
+#include "verification/larger.hpp"
 #include "verification/probes.hpp"
 
 namespace strut {
@@ -232,8 +233,8 @@ double gradient_error(Body& body, double size, double step, const Communicator& 
     displace(body, size);
     for (int i = 0; i < body.owned(); ++i) {
       const Vector force = body.force_density[i] * body.domain.volume(i);
-      scale = std::max(scale, force.norm());
-      if (body.domain.cloud.ids[i] == id) error = std::max(error, (force + gradient).norm());
+      scale = larger(scale, force.norm());
+      if (body.domain.cloud.ids[i] == id) error = larger(error, (force + gradient).norm());
     }
   }
   return world.max(error) / world.max(scale);
@@ -290,7 +291,7 @@ TEST_P(Bodies, ConserveEnergyOverThousandsOfSteps) {
   for (int n = 0; n < 3000; ++n) {
     const bool look = n % 100 == 99;
     solver.advance_velocity(1e9);
-    if (n % 100 == 0) worst = std::max(worst, solver.ledger().balance_error);
+    if (n % 100 == 0) worst = larger(worst, solver.ledger().balance_error);
     solver.advance_position(look);
   }
   EXPECT_LT(worst, GetParam() == Kind::mixed ? 2e-5 : 3e-6);

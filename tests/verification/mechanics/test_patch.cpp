@@ -30,6 +30,13 @@ class Patch : public testing::TestWithParam<Case> {
   Body body = lattice_body(spec, world);
 };
 
+TEST(LargestOver, IsNoNumberWhereOneIs) {  // so that no limit holds for a body that blew up
+  const Communicator world;
+  const Body body = lattice_body({.cells = {3, 3, 3}, .material = {1000, elastic(1e9, 0.3)}}, world);
+  const double largest = largest_over(body, [&](int i) { return i == 0 ? NAN : i; });
+  EXPECT_EQ(std::isnan(largest), body.owned() > 0);
+}
+
 // K is well conditioned here (condition below 10), so F carries some tens of units of round-off.
 constexpr double round_off = 1e-13;
 

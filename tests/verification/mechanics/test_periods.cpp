@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mechanics/mirror_forces.hpp"
+#include "verification/larger.hpp"
 #include "verification/probes.hpp"
 
 namespace strut {
@@ -70,8 +71,8 @@ class Periodic : public testing::TestWithParam<Case> {
     take(part, some), take(whole, all);
     double largest = 0, most = 0;
     for (std::size_t k = 0; k < all.size(); ++k) {
-      largest = std::max(largest, std::abs(all[k]));
-      most = std::max(most, std::abs(some[k] - all[k]));
+      largest = larger(largest, std::abs(all[k]));
+      most = larger(most, std::abs(some[k] - all[k]));
     }
     EXPECT_GT(largest, 0);
     return most / largest;

@@ -4,6 +4,7 @@
 #include "integrators/explicit/central_difference.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/formulation/shared_volume.hpp"
+#include "verification/larger.hpp"
 #include "verification/lattice.hpp"
 
 namespace strut {
@@ -254,8 +255,8 @@ TEST(Quadratic, NoiseDoesNotGrow) {
     if (solver.steps() % 50 == 0 || solver.time() >= final_time) {
       const Ledger now = solver.ledger();
       if (solver.steps() == 0) first = now.kinetic + now.elastic;
-      most = std::max(most, now.kinetic + now.elastic);
-      imbalance = std::max(imbalance, now.balance_error);
+      most = larger(most, now.kinetic + now.elastic);
+      imbalance = larger(imbalance, now.balance_error);
     }
     if (solver.time() >= final_time) break;
     solver.advance_position(true);

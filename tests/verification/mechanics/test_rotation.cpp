@@ -5,6 +5,7 @@
 #include <random>
 
 #include "base/math/rotation.hpp"
+#include "verification/larger.hpp"
 #include "verification/lattice.hpp"
 
 namespace strut {
@@ -66,7 +67,7 @@ TEST(Rotation, LongSimpleShearFollowsThePolarDecomposition) {
     Tensor F = Tensor::Identity();
     F(0, 1) = gamma;
     R = next_rotation(R, F);
-    largest = std::max(largest, (R - turned(-std::atan(gamma / 2), {0, 0, 1})).norm());
+    largest = larger(largest, (R - turned(-std::atan(gamma / 2), {0, 0, 1})).norm());
   }
   // One Newton step from the last rotation: the error is of the order of the square of the turn of a step (5e-3)² and
   // does not add up.

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include "verification/larger.hpp"
 #include "verification/probes.hpp"
 
 namespace strut {
@@ -218,7 +219,7 @@ TEST(Stability, TwoHundredThousandStepsKeepTheEnergy) {
   double drift = 0;
   for (int n = 0; n < 200000; ++n) {
     solver.advance_velocity(1e9);
-    if (n % 20000 == 0) drift = std::max(drift, solver.ledger().balance_error);
+    if (n % 20000 == 0) drift = larger(drift, solver.ledger().balance_error);
     solver.advance_position((n + 1) % 20000 == 0);
   }
   row("200,000 steps of free vibration at 0.9 of the limit", text("energy off by %.1e", drift));
