@@ -14,6 +14,7 @@ using Check = std::string (*)(const Situation&);
 constexpr Check checks[] = {
     without_effect,
     doubled_numbers,
+    volumes_off_lattices,
     improbable_materials,
     soft_springs,
     improbable_temperatures,

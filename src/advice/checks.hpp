@@ -33,6 +33,11 @@ std::string without_effect(const Situation& situation);
 // A warning with the lowest number that several points share, and how many points repeat a number; "" if none does.
 std::string doubled_numbers(const Situation& situation);
 
+// ---- lattice_volumes.cpp
+
+// A warning for points of text meshes and spheres whose volume is not the product of the spacings of their lattice.
+std::string volumes_off_lattices(const Situation& situation);
+
 // ---- outline.cpp
 
 // Lines for the start of a run: box and mass of the reference state; wave speed √((K + 4μ/3)/ρ), and the
