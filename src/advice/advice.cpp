@@ -23,6 +23,7 @@ constexpr Check checks[] = {
     sudden_stretches,
     overlaps,
     flat_families,
+    unknown_gradients,
     unequal_horizons,
     contact_at_mirrors,
     filled_tools,

@@ -111,6 +111,9 @@ std::string flat_families(const Situation& situation);
 // The warnings of blocks with points that are bonded to others of other horizons.
 std::string unequal_horizons(const Situation& situation);
 
+// A warning for each block with ordinary points whose neighbors lie in a plane, if the deck asks for a variable of F.
+std::string unknown_gradients(const Situation& situation);
+
 // A warning for the blocks with points at nodes that touch by surfaces and are so narrow that the contact
 // is weak everywhere.
 std::string narrow_surfaces_of_nodes(const Situation& situation);
