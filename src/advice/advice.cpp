@@ -14,6 +14,7 @@ using Check = std::string (*)(const Situation&);
 constexpr Check checks[] = {
     without_effect,
     doubled_numbers,
+    volumes_off_lattices,
     improbable_materials,
     soft_springs,
     improbable_temperatures,
@@ -22,6 +23,7 @@ constexpr Check checks[] = {
     sudden_stretches,
     overlaps,
     flat_families,
+    unknown_gradients,
     unequal_horizons,
     contact_at_mirrors,
     filled_tools,

@@ -33,6 +33,11 @@ std::string without_effect(const Situation& situation);
 // A warning with the lowest number that several points share, and how many points repeat a number; "" if none does.
 std::string doubled_numbers(const Situation& situation);
 
+// ---- lattice_volumes.cpp
+
+// A warning for points of text meshes and spheres whose volume is not the product of the spacings of their lattice.
+std::string volumes_off_lattices(const Situation& situation);
+
 // ---- outline.cpp
 
 // Lines for the start of a run: box and mass of the reference state; wave speed √((K + 4μ/3)/ρ), and the
@@ -105,6 +110,9 @@ std::string flat_families(const Situation& situation);
 
 // The warnings of blocks with points that are bonded to others of other horizons.
 std::string unequal_horizons(const Situation& situation);
+
+// A warning for each block with ordinary points whose neighbors lie in a plane, if the deck asks for a variable of F.
+std::string unknown_gradients(const Situation& situation);
 
 // A warning for the blocks with points at nodes that touch by surfaces and are so narrow that the contact
 // is weak everywhere.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -5,6 +6,7 @@
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "base/errors.hpp"
 #include "base/text.hpp"
 #include "mechanics/expected_error.hpp"
 #include "mechanics/steepness.hpp"
@@ -120,6 +122,50 @@ std::string flat_families(const Situation& situation) {
          << "Bond Filters)\n";
   }
   return text.str();
+}
+
+namespace {
+
+// The variables of the deck that need F.
+std::set<std::string> asked_of_gradients(const deck::Deck& deck) {
+  constexpr const char* words[] = {"Stress",          "Pressure", "Deformation_Gradient", "Jacobian", "Stretch_Tensor",
+                                   "Rotation_Tensor", "Residual"};
+  std::set<std::string> asked;
+  for (const auto* names : {&deck.output.variables, &deck.history.variables}) {
+    for (const std::string& name : *names) {
+      const auto is_in = [&name](const char* word) { return name.find(word) != std::string::npos; };
+      if (std::ranges::any_of(words, is_in)) asked.insert(name);
+    }
+  }
+  return asked;
+}
+
+}  // namespace
+
+// Such points bear load by their bonds, and their dilatation is right.
+std::string unknown_gradients(const Situation& situation) {
+  const Body& body = situation.scene.body;
+  const std::set<std::string> asked = asked_of_gradients(situation.deck);
+  if (asked.empty()) return "";
+  std::vector<std::vector<int>> flat(body.blocks.size());
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (!body.blocks[b].is_ordinary()) continue;
+    for (const int i : body.blocks[b].points) {
+      if (body.domain.families.size(i) > 0 && !(trace(body.shape_inverse[i]) > 0)) flat[b].push_back(i);
+    }
+  }
+  const std::vector<FoundPoints> found = found_points(body, flat);
+  std::string text;
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (found[b].count == 0) continue;
+    text += text_of("WARNING: block '", body.blocks[b].name, "': the neighbors of ", found[b].count,
+                    " points, one of them at ", place_text(found[b].one),
+                    ", lie in one plane, which leaves F unknown: there it is shown as the identity and stress as 0, "
+                    "though the points bear load (",
+                    joined({asked.begin(), asked.end()}),
+                    "); expected two layers of points or more, or variables such as Dilatation and reactions\n");
+  }
+  return text;
 }
 
 // Not of cells by quadratic correspondence, whose fits balance a uniform stress whatever the families around.

@@ -135,6 +135,10 @@ std::string open_sides(const deck::Deck& deck, const Domain& domain) {
   if (domain.periods.empty()) return warnings;
   std::vector<Vector> shifts(domain.sites.size(), Vector::Zero());
   for (const ImagePoint& image : domain.halo.images()) shifts[image.ghost] = image.by.period;
+  std::vector<char> is_cut(domain.owned, 0);  // from an image, by a crack along a side: the mesh goes on there
+  for (const auto& [i, other] : domain.separated) {
+    if (Images::image(other) > 0) is_cut[i] = 1;
+  }
   const bool any_quadratic = std::ranges::any_of(deck.materials, is_quadratic);
   for (const Period& period : domain.periods) {
     // Elements with a node on the upper side, those of them without a neighbor above, all that have nodes; those with a
@@ -146,7 +150,7 @@ std::string open_sides(const deck::Deck& deck, const Domain& domain) {
       if (std::ranges::none_of(domain.cloud.shared_nodes[i], is_on_side)) continue;
       bool meets = false;
       domain.families.for_each(i, [&](int j) { meets = meets || shifts[j][period.axis] > 0; });
-      ++counts[0], counts[1] += meets ? 0 : 1;
+      ++counts[0], counts[1] += meets || is_cut[i] != 0 ? 0 : 1;
       counts[3] += meets && surface_along(domain.cloud, period.axis, i) > 0.1 ? 1 : 0;
     }
     domain.communicator.sum(counts);

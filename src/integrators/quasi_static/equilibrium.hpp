@@ -83,8 +83,8 @@ class Equilibrium {
   contact::Contact take_contact() { return std::move(contact_); }
   std::optional<Fracture> take_fracture() { return std::move(fracture_); }
   const Conditions& conditions() const { return conditions_; }
-  // For the last trial: work of loads and of holding conditions over the step, by the mean of the forces at its ends, J
-  // on this rank.
+  // Collective. For the last trial: work of loads and of holding conditions over the step, by the mean of the forces at
+  // its ends, along arcs where held points turn, J on this rank.
   double external_work() const;
   double tool_work() const { return tools_.work(body_); }
   double friction_work() const;  // between bodies

@@ -64,6 +64,54 @@ TEST(Seams, OfSurfacesAreTold) {
   EXPECT_FALSE(tells(penalty, "false"));
 }
 
+// The warnings of points 1 mm apart, each with this part of a cube's volume, as text or as spheres. `at_faces`: halves
+// and quarters there, as points at nodes have.
+std::string told_of_volumes(const Vector& layers, double part, bool spheres = false, bool at_faces = false) {
+  const RunFolder folder;
+  const double spacing = 1e-3;  // m
+  std::ostringstream lines;
+  io::Mesh mesh;
+  mesh.blocks.push_back({.name = "block_1", .type = "SPHERE", .nodes = {}, .volumes = {}, .cells = {}});
+  for (int n = 0; n < layers.prod(); ++n) {
+    const int x = n % int(layers[0]), y = n / int(layers[0]) % int(layers[1]), z = n / int(layers[0] * layers[1]);
+    const Vector cell(x, y, z);
+    double volume = part * std::pow(spacing, 3);
+    for (int axis = 0; axis < 3 && at_faces; ++axis)
+      volume *= cell[axis] == 0 || cell[axis] == layers[axis] - 1 ? 0.5 : 1;
+    lines << spacing * x << " " << spacing * y << " " << spacing * z << " 1 " << volume << "\n";
+    mesh.nodes.push_back(spacing * cell);
+    mesh.blocks[0].nodes.push_back(n);
+    mesh.blocks[0].volumes.push_back(volume);
+  }
+  folder.write("points.txt", lines.str());
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+  const std::string horizon = part > 1 ? key("Horizon Factor", "1.75") : key("Horizon", "1.75e-3");
+  Parts parts;
+  parts.blocks = section("one", key("Block Names", "block_1") + key("Material", "copper") + horizon);
+  parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+  if (!spheres) parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+}
+
+// Nothing but the file ties them to the lattice.
+TEST(Volumes, ThatDoNotFitTheLatticeAreTold) {
+  const auto has = [](const std::string& text, const std::string& part) { return text.find(part) != text.npos; };
+  const std::string fit = "do not fit the lattice";
+  for (const bool spheres : {false, true}) {
+    for (const double part : {1e-3, 0.5, 2.0, 8.0})
+      EXPECT_TRUE(has(told_of_volumes({3, 4, 5}, part, spheres), fit)) << part << spheres;
+    EXPECT_FALSE(has(told_of_volumes({3, 4, 5}, 1.05, spheres), fit));
+  }
+  EXPECT_TRUE(has(told_of_volumes({3, 4, 5}, 2),
+                  "the volumes of 60 points, one of them at (0, 0, 0) m, do not fit the lattice that the points are "
+                  "on: the farthest off has 2e-09 m³, and its spacings make 1e-09 m³"));
+  for (const double part : {1e-3, 2.0}) EXPECT_TRUE(has(told_of_volumes({2, 2, 5}, part), fit)) << part;
+  EXPECT_FALSE(has(told_of_volumes({6, 6, 1}, 0.1), fit));  // the thickness of one layer is its volumes'
+  for (const int layers : {2, 3, 5}) {
+    EXPECT_FALSE(has(told_of_volumes({5.0, 5.0, double(layers)}, 1, false, true), fit)) << layers;
+  }
+}
+
 // Small points have larger ones in their families, which lie outside of their own horizon.
 TEST(Overlaps, AreNotToldWhereCellsGrow) {
   const RunFolder folder;
@@ -77,6 +125,7 @@ TEST(Overlaps, AreNotToldWhereCellsGrow) {
         section("one", key("Block Names", "block_1") + key("Material", "copper") + key("Horizon Factor", factor));
     const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
     EXPECT_EQ(told_at_the_start(deck, folder.world).warnings.find("as much material"), std::string::npos) << factor;
+    EXPECT_EQ(told_at_the_start(deck, folder.world).warnings.find("do not fit"), std::string::npos) << factor;
   }
 }
 

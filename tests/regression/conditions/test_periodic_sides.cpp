@@ -470,7 +470,6 @@ std::string error_of(Parts parts, const Lattice& lattice = {}) {
   return text;
 }
 
-// A roll across a side has no image at the other one; between the sides, or along the axis, it needs none.
 // Partly filled cells bring their surfaces: of a box that was not made to repeat, those at its ends, too.
 TEST(PeriodicSides, TellOfCellsThatEndAtThem) {
   const RunFolder folder;
@@ -498,6 +497,27 @@ TEST(PeriodicSides, TellOfCellsThatEndAtThem) {
   EXPECT_TRUE(told(true));
 }
 
+// A crack along the sides cuts the bonds between faces that are alike; a mesh whose faces are not is told of.
+TEST(PeriodicSides, TellOfCellsWithoutANeighborButNotOfACrack) {
+  const auto told = [](const std::string& x_of_crack, bool whole) {
+    const RunFolder folder(Lattice{.inside = [whole](double x, double y) { return whole || x > 2e-3 || y > 2e-3; }});
+    std::string disk = key("Type", "Disk") + key("Radius", "1") + key("Normal_X", "1") + key("Center_X", x_of_crack);
+    for (const char* zero : {"Normal_Y", "Normal_Z", "Center_Y", "Center_Z"}) disk += key(zero, "0");
+    Parts parts;
+    parts.materials = metal("Elastic", "");
+    parts.conditions = sides("x", "0", "4e-3");
+    const std::string text =
+        changed(parts.text(), "<ParameterList name=\"Discretization\">",
+                "<ParameterList name=\"Discretization\">" + section("Bond Filters", section("disk", disk)));
+    const deck::Deck deck = deck::read(folder.write("deck.xml", text), folder.world);
+    return set_up(deck, folder.world).warnings.find("have no neighbor behind it") != std::string::npos;
+  };
+  for (const char* side : {"0", "4e-3"}) EXPECT_FALSE(told(side, true)) << side;
+  EXPECT_FALSE(told("2e-3", true));
+  EXPECT_TRUE(told("2e-3", false));
+}
+
+// A roll across a side has no image at the other one; between the sides, or along the axis, it needs none.
 TEST(PeriodicSides, TellOfToolsAcrossThem) {
   const RunFolder folder;
   const auto told = [&](const std::string& point, const std::string& axis, const std::string& travel) {

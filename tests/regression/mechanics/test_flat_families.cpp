@@ -35,6 +35,33 @@ TEST(FlatFamilies, AreToldOf) {
   EXPECT_EQ(told_of(plate(folder, 2)).find(words), std::string::npos);
 }
 
+// In a plane, or a row, ordinary points bear load without an F.
+TEST(FlatFamilies, OfOrdinaryPointsAreToldOfWhereFIsAskedFor) {
+  const RunFolder folder;
+  const auto told_of = [&folder](int nx, int ny, int nz, const std::string& variable, bool in_history = false) {
+    std::ostringstream text;
+    for (int n = 0; n < nx * ny * nz; ++n)
+      text << n % nx << "e-3 " << n / nx % ny << "e-3 " << n / (nx * ny) << "e-3 1 1e-9\n";
+    folder.write("points.txt", text.str());
+    Parts parts;
+    parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+    parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+    (in_history ? parts.history : parts.output) =
+        key(in_history ? "Filename" : "Output Filename", "a") +
+        section(in_history ? "Variables" : "Output Variables", key(variable, "true"));
+    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+  };
+  const std::string words = "lie in one plane, which leaves F unknown", told = told_of(5, 5, 1, "Cauchy_Stress");
+  EXPECT_NE(told.find("WARNING: block 'block_1': the neighbors of 25 points, one of them at (0, 0, 0) m, " + words),
+            std::string::npos)
+      << told;
+  EXPECT_NE(told.find("(Cauchy_Stress)"), std::string::npos) << told;
+  EXPECT_NE(told_of(9, 1, 1, "Jacobian").find(words), std::string::npos);
+  EXPECT_NE(told_of(5, 5, 1, "Mean_Cauchy_Stress_XX(all)", true).find(words), std::string::npos);
+  EXPECT_EQ(told_of(5, 5, 1, "Dilatation").find(words), std::string::npos);
+  EXPECT_EQ(told_of(5, 5, 2, "Cauchy_Stress").find(words), std::string::npos);
+}
+
 // Two bonded blocks of one spacing with other horizons.
 TEST(UnequalHorizons, AreToldOf) {
   const RunFolder folder;
