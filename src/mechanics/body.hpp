@@ -52,7 +52,7 @@ struct PointFields {
        .variable = "Force_Density",
        .nodal = true});
   PointField<double> residual = fields.of_points<double>(  // current after a step with diagnostics
-      {.name = "residual", .unit = "m⁵", .meaning = "Σ ω V |η − F ξ|², by correspondence", .kept = true});
+      {.name = "residual", .unit = "m⁵", .meaning = "Σ ω V |η − F ξ|²", .kept = true});
   PointField<double> bond_work = fields.of_points<double>(  // current after a step with diagnostics
       {.name = "bond_work", .unit = "J/m³", .meaning = "energy of the springs on both ends' gradients", .kept = true},
       When::if_used);
