@@ -111,7 +111,9 @@ std::vector<Observable> kinematic() {
           "Velocity", "m/s", "velocity at the time of the frame",
           [](const Body& b, int i) -> Vector { return 0.5 * (b.previous_velocity[i] + b.velocity[i]); }, true),
       observable(
-          "Force", "N", "internal force and loads; with substeps, those at the end of the step",
+          "Force", "N",
+          "internal force, contact and loads, without tools and prescribed motion; with substeps, what acts at the end "
+          "of the step",
           [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volume(i); }, true),
       observable("Deformation_Gradient", "1", "F",
                  [](const Body& b, int i) { return by_rows(b.points[i].deformation_gradient); }),
