@@ -156,7 +156,7 @@ std::vector<Observable> fixed_properties() {
                  [](const Body& b, int i) { return b.block_of(i).material.density; }),
       observable("Horizon", "m", "δ", [](const Body& b, int i) { return b.domain.horizon(i); }),
       weighted_volume(),
-      observable("Number_Of_Neighbors", "1", "number of points in the family",
+      observable("Number_Of_Neighbors", "1", "number of points in the family; of one on a symmetry plane, both halves",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.families.size(i)); }),
       fragment(),
       observable("Element_Id", "1", "number of the element (or node) in the mesh",
