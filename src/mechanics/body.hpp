@@ -43,16 +43,14 @@ struct PointFields {
   PointField<Vector> previous_velocity = fields.of_points<Vector>(
       {.name = "previous_velocity", .unit = "m/s", .meaning = "at the mid-step before the time", .kept = true});
   // Sum over the phases of a step: each point's own state sets it, then bonds, contact and loads add to it.
-  PointField<Vector> force_density = fields.of_points<Vector>(
-      {.name = "force_density",
-       .unit = "N/m³",
-       .meaning = "internal force and loads, per reference volume; where points are subcycled, what acts at the end of "
-                  "a step",
-       .kept = true,
-       .variable = "Force_Density",
-       .nodal = true});
+  PointField<Vector> force_density = fields.of_points<Vector>({.name = "force_density",
+                                                               .unit = "N/m³",
+                                                               .meaning = "Force per reference volume",
+                                                               .kept = true,
+                                                               .variable = "Force_Density",
+                                                               .nodal = true});
   PointField<double> residual = fields.of_points<double>(  // current after a step with diagnostics
-      {.name = "residual", .unit = "m⁵", .meaning = "Σ ω V |η − F ξ|², by correspondence", .kept = true});
+      {.name = "residual", .unit = "m⁵", .meaning = "Σ ω V |η − F ξ|²", .kept = true});
   PointField<double> bond_work = fields.of_points<double>(  // current after a step with diagnostics
       {.name = "bond_work", .unit = "J/m³", .meaning = "energy of the springs on both ends' gradients", .kept = true},
       When::if_used);

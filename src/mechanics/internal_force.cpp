@@ -27,7 +27,7 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics, Bo
   };
   const auto view = [&](const MaterialBlock& block, const LaneGroups& groups) {
     if (block.is_quadratic()) diagnose_cells(body, block, groups);
-    if (!block.is_ordinary()) diagnose_residuals(body, groups);
+    diagnose_residuals(body, groups);
   };
   const auto over = [&](Part part) {
     if (breaking && pass.dt > 0) breaking->break_bonds(body, part, pass.time, pass.dt);

@@ -11,6 +11,7 @@
 #include "base/errors.hpp"
 #include "fracture/fragments.hpp"
 #include "materials/state_variables.hpp"
+#include "mechanics/steepness.hpp"
 
 namespace strut {
 
@@ -48,9 +49,15 @@ Symmetric cauchy(const Body& body, int i) {
 }
 
 // 0 for points whose neighbors do not span space.
-double trace_of_shape(const Body& body, int i) {
-  const Symmetric& inverse = body.shape_inverse[i];
+double trace_of_shape(const Symmetric& inverse) {
   return trace(inverse) > 0 ? to_tensor(inverse).inverse().trace() : 0;
+}
+
+double residual(const Body& body, int i) {
+  // shape_inverse of an ordinary point stays that of its whole family.
+  const bool is_of_others = body.block_of(i).is_ordinary() && body.has_lost_bonds(i);
+  const double scale = trace_of_shape(is_of_others ? inverse_of(shape_tensor(body, i)) : body.shape_inverse[i]);
+  return scale > 0 ? std::sqrt(std::max(0.0, body.residual[i]) / scale) : 0;
 }
 
 // For ordinary points, that of the complete family before bonds broke.
@@ -61,7 +68,8 @@ Observable weighted_volume() {
       for (std::size_t k = 0; k < block.points.size(); ++k) {
         const int i = block.points[k];
         const bool is_alone = body.domain.families.size(i) == 0 && !body.has_lost_bonds(i);  // m is then a stand-in
-        out[i] = block.is_ordinary() && !is_alone ? block.ordinary[k].weighted_volume : trace_of_shape(body, i);
+        out[i] = block.is_ordinary() && !is_alone ? block.ordinary[k].weighted_volume
+                                                  : trace_of_shape(body.shape_inverse[i]);
       }
     }
   };
@@ -103,7 +111,9 @@ std::vector<Observable> kinematic() {
           "Velocity", "m/s", "velocity at the time of the frame",
           [](const Body& b, int i) -> Vector { return 0.5 * (b.previous_velocity[i] + b.velocity[i]); }, true),
       observable(
-          "Force", "N", "internal force and loads; with substeps, those at the end of the step",
+          "Force", "N",
+          "internal force, contact and loads, without tools and prescribed motion; with substeps, what acts at the end "
+          "of the step",
           [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volume(i); }, true),
       observable("Deformation_Gradient", "1", "F",
                  [](const Body& b, int i) { return by_rows(b.points[i].deformation_gradient); }),
@@ -114,11 +124,7 @@ std::vector<Observable> kinematic() {
                    const MaterialPoint& p = b.points[i];
                    return symmetric_part(p.deformation_gradient * p.rotation.tensor().transpose());
                  }),
-      observable("Residual", "1", "root mean square of |y_j − y_i − F ξ| over that of |ξ| in the family",
-                 [](const Body& b, int i) {
-                   const double scale = trace_of_shape(b, i);
-                   return scale > 0 ? std::sqrt(std::max(0.0, b.residual[i]) / scale) : 0.0;
-                 }),
+      observable("Residual", "1", "root mean square of |y_j − y_i − F ξ| over that of |ξ| in the family", residual),
       observable("Jacobian", "1", "det F",
                  [](const Body& b, int i) { return b.points[i].deformation_gradient.determinant(); }),
       dilatation(),
@@ -150,7 +156,7 @@ std::vector<Observable> fixed_properties() {
                  [](const Body& b, int i) { return b.block_of(i).material.density; }),
       observable("Horizon", "m", "δ", [](const Body& b, int i) { return b.domain.horizon(i); }),
       weighted_volume(),
-      observable("Number_Of_Neighbors", "1", "number of points in the family",
+      observable("Number_Of_Neighbors", "1", "number of points in the family; of one on a symmetry plane, both halves",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.families.size(i)); }),
       fragment(),
       observable("Element_Id", "1", "number of the element (or node) in the mesh",

@@ -19,7 +19,7 @@ The section `Output` of a deck writes these fields of the points. The section `H
 - `Reaction_X(wall)`, `_Y`, `_Z`: force of the condition `wall` on the body, N.
 - `Crack_Tip(notch)`, `Crack_Speed(notch)`: length of the crack `notch` in `History` > `Cracks` along its direction, m, and its slope over the last rows, m/s.
 
-Forces are means since the previous row: times the interval they are impulses; the first row has 0. `Instant_Reaction_Z(wall)` is the force of the single step at the row's time. In equilibria all forces are those of the row's time.
+Forces are means since the previous row: times the interval they are impulses; the first row has 0, and points of a prescribed motion start each explicit solver with its velocity, without an impulse. `Instant_Reaction_Z(wall)` is the force of the single step at the row's time. In equilibria all forces are those of the row's time.
 
 X and y are reference and current position; other symbols: [glossary](../docs/glossary.md). In brackets: unit, number of components (one unless stated; 3 are x, y, z; 6 are xx, yy, zz, xy, yz, zx; 9 are a tensor row by row), and `nodal` (in the Exodus file; others are element variables). A variable of a law exists where a material has this law, else it is 0; extremes and means of `Temperature`, `Relative_Volume` and `Relative_Density` leave out points without it. By quadratic correspondence it is the mean over the cell.
 

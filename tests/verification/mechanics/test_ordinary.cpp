@@ -152,6 +152,27 @@ TEST(OutputVariables, SeeAnAffineDeformation) {
   EXPECT_LT(largest_over(body, [&](int i) { return (body.points[i].rotation.tensor() - R).norm(); }), 1e-12);
 }
 
+// As by correspondence, though no force follows from it.
+TEST(OutputVariables, SeeWhatAnAffineDeformationLeaves) {
+  const Communicator world;
+  Body body = lattice_body(small_block(), world);
+  deform(body, [](const Vector& X) -> Vector { return X + Vector(0, 0, 10 * X[0] * X[0] + 3 * X[0] * X[1]); });
+  advance_stress_and_force(body, 1, true);
+  const auto by_hand = [&](int i) {
+    double sum = 0;
+    bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), bonds::One(),
+                [&](int j, double w, const auto& xi, double) {
+                  const Vector rest(xi.c[0], xi.c[1], xi.c[2]);
+                  sum += w *
+                         (body.current(j) - body.current(i) - body.points[i].deformation_gradient * rest).squaredNorm();
+                });
+    return sum;
+  };
+  const double largest = largest_over(body, by_hand);
+  EXPECT_GT(largest, 0);
+  EXPECT_LT(largest_over(body, [&](int i) { return std::abs(body.residual[i] - by_hand(i)); }), 1e-9 * largest);
+}
+
 TEST(OutputVariables, AreLeftAloneWithoutALook) {
   const Communicator world;
   LatticeSpec spec = small_block();
