@@ -105,17 +105,20 @@ def figure(path, study, cases, rows, units):
     curves = bands.curves_of(cases, rows, study.band) if study.band else {}
     if not (count := len(plots) + len(curves)):
         return
-    drawing, panels = plt.subplots(1, count, figsize=(5.6 * count, 4.3), layout="constrained", squeeze=False)
-    for axes, plot in zip(panels[0], plots):
+    columns = min(count, 3)
+    rows_of_panels = -(-count // columns)
+    drawing = plt.figure(figsize=(5.6 * columns, 4.3 * rows_of_panels), layout="constrained")
+    panels = [drawing.add_subplot(rows_of_panels, columns, n + 1) for n in range(count)]
+    for axes, plot in zip(panels, plots):
         for name in (plot.x, plot.y, plot.by):
             if name and not any(name in row for row in rows):
                 study.expect(name, [n for n in rows[0] if n != "error"], "to plot")
         draw(axes, plot, rows)
         for axis, name in ((axes.set_xlabel, plot.x), (axes.set_ylabel, plot.y)):
             axis(name.replace("_", " ") + (f", {units[name]}" if name in units else ""))
-    for axes, column in zip(panels[0][len(plots):], curves):
+    for axes, column in zip(panels[len(plots):], curves):
         bands.draw(axes, column, curves[column], study.band)
-    for axes in panels[0]:
+    for axes in panels:
         axes.grid(alpha=0.3)
         if axes.get_legend_handles_labels()[0]:
             axes.legend(frameon=False)
