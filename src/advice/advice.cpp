@@ -35,6 +35,7 @@ constexpr Check checks[] = {
     held_stretches,
     held_ends,
     thin_members,
+    cracks_of_plates,
     uneven_dilatation,
     oblong_cells,
     narrow_surfaces_of_nodes,

@@ -80,6 +80,9 @@ std::string overlaps(const Situation& situation);
 // A line for each block whose points fail without softening, because its fracture energy is too small for its spacing.
 std::string sudden_failure(const Situation& situation);
 
+// A line for each block of ordinary points in plates so thin that a crack dissipates another energy than is given.
+std::string cracks_of_plates(const Situation& situation);
+
 // A warning for each block whose spacing is too large for the Averaging Radius of its criterion.
 std::string coarse_averages(const Situation& situation);
 
@@ -108,11 +111,11 @@ std::string thin_members(const Situation& situation);
 // The warnings of blocks with points whose families nearly lie in a plane.
 std::string flat_families(const Situation& situation);
 
-// The warnings of blocks with points that are bonded to others of other horizons.
-std::string unequal_horizons(const Situation& situation);
-
 // A warning for each block with ordinary points whose neighbors lie in a plane, if the deck asks for a variable of F.
 std::string unknown_gradients(const Situation& situation);
+
+// The warnings of blocks with points that are bonded to others of other horizons.
+std::string unequal_horizons(const Situation& situation);
 
 // A warning for the blocks with points at nodes that touch by surfaces and are so narrow that the contact
 // is weak everywhere.

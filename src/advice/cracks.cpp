@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "fracture/plates.hpp"
 #include "mechanics/hindered_breaks.hpp"
 
 namespace strut {
@@ -33,6 +35,62 @@ std::string sudden_failure(const Situation& situation) {
     if (!(given > 0) || given >= least) continue;
     text << "block '" << block.name << "': points hold more energy when they yield than its Fracture Energy, so they "
          << "fail at once; expected more than " << least << " J/m², or a smaller spacing\n";
+  }
+  return text.str();
+}
+
+namespace {
+
+// Collective. The layers of the plates of a block on a lattice along its axes, if points see both of their faces; 0 for
+// other blocks.
+int layers_of_plates(const Domain& domain, const MaterialBlock& block, const BlockHorizons& of_block) {
+  const int reach = static_cast<int>(of_block.largest / of_block.spacing * (1 + 1e-9));
+  if (reach < 1) return 0;
+  const int most = 2 * reach;
+  std::vector<double> counts(3 * most + 1, 0);  // of points that see so many layers along x, y, z; of all
+  for (const int i : block.points) {
+    Vector ahead = Vector::Zero(), behind = Vector::Zero();  // spacings
+    domain.families.for_each(i, [&](int j) {
+      const Vector xi = (domain.reference(j) - domain.reference(i)) / of_block.spacing;
+      ahead = ahead.cwiseMax(xi), behind = behind.cwiseMax(-xi);
+    });
+    for (int axis = 0; axis < 3; ++axis) {
+      const double layers = 1 + ahead[axis] + behind[axis];
+      const bool is_lattice = std::abs(layers - std::round(layers)) < 0.01;
+      const bool sees_both = std::max(ahead[axis], behind[axis]) < reach - 0.5;
+      if (is_lattice && sees_both) ++counts[axis * most + static_cast<int>(std::lround(layers))];
+    }
+    ++counts.back();
+  }
+  domain.communicator.sum(counts);
+  for (int layers = 1; layers < most; ++layers) {
+    const double seen = std::min(1.0, double(most - layers) / layers);  // part of a plate's points that see both faces
+    for (int axis = 0; axis < 3; ++axis) {
+      if (counts[axis * most + layers] > 0.5 * seen * counts.back()) return layers;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::string cracks_of_plates(const Situation& situation) {
+  constexpr double worth_saying = 0.1;
+  const Body& body = situation.scene.body;
+  std::ostringstream text;
+  text.precision(2);
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const MaterialBlock& block = body.blocks[b];
+    const BlockHorizons& of_block = body.domain.blocks[b];
+    const auto& damage = block.material.damage;
+    if (!damage || !(damage->fracture_energy > 0) || !block.is_ordinary() || !(of_block.spacing > 0)) continue;
+    const int layers = layers_of_plates(body.domain, block, of_block);
+    const double part = layers > 0 ? part_in_plates(body, b, layers) : 1;
+    if (std::abs(part - 1) < worth_saying) continue;
+    text << "block '" << block.name << "': in plates of " << layers << (layers > 1 ? " layers" : " layer")
+         << " a flat cut from face to face dissipates " << part
+         << " of the Fracture Energy, because bonds break as in a lattice without faces; expected more layers, or "
+         << 1 / part << " times that Fracture Energy\n";
   }
   return text.str();
 }

@@ -8,10 +8,11 @@ namespace strut {
 
 namespace {
 
-// A bond across the plane, at an opening of 1 m. All points of a layer have equal values, and the halves are symmetric.
+// A bond across the plane, at an opening of 1 m. All points of a layer (in a plate, of a row of it) have equal values,
+// and the halves are symmetric.
 struct CrossingBond {
   double weight, length, extension;  // ω V, m³; m; m
-  int layer, far_layer;              // of its ends, counted from the plane
+  int place, far_place;              // of its ends: layers, counted from the plane, by rows
 };
 
 class SeparatedHalves {
@@ -19,7 +20,7 @@ class SeparatedHalves {
   explicit SeparatedHalves(const PulledLattice& lattice);
 
   bool hold() const { return !bonds_.empty(); }
-  // The largest w of any bond; the energy of the layers of one half, J/m³; both at an opening of 1 m.
+  // The largest w of any bond; the energy of the layers of one half, J/m³, mean of the rows; both at an opening of 1 m.
   double most() const;
   double energy() const;
   // Removes the bonds whose w, at an opening of 1 m, is at least this.
@@ -28,39 +29,49 @@ class SeparatedHalves {
  private:
   void set_dilatations();
   double bond_energy(const CrossingBond& bond) const;
+  double weighted_volume(int place) const { return weighted_volumes_[place % weighted_volumes_.size()]; }
 
   const PulledLattice& lattice_;
-  double weighted_volume_ = 0;
+  std::vector<double> weighted_volumes_;  // of the rows
   std::vector<CrossingBond> bonds_;
-  std::vector<double> dilatations_;  // of the layers, at an opening of 1 m
+  std::vector<double> dilatations_;  // of places, at an opening of 1 m
 };
 
 SeparatedHalves::SeparatedHalves(const PulledLattice& lattice) : lattice_(lattice) {
+  const int rows = std::max(1, lattice.rows);
+  weighted_volumes_.assign(rows, 0);
+  int places = 0;
   for (const LatticeBond& bond : family_of(lattice)) {
     const double length = bond.xi.norm();
-    weighted_volume_ += bond.weight * length * length;
-    for (int layer = 0; layer < bond.layers_below; ++layer) {
-      bonds_.push_back({bond.weight, length, std::abs(bond.xi[2]) / length, layer, bond.layers_below - 1 - layer});
+    for (int row = 0; row < rows; ++row) {
+      const int far = far_row(lattice, bond, row);
+      if (far < 0) continue;
+      weighted_volumes_[row] += bond.weight * length * length;
+      for (int layer = 0; layer < bond.layers_below; ++layer) {
+        bonds_.push_back({bond.weight, length, std::abs(bond.xi[2]) / length, layer * rows + row,
+                          (bond.layers_below - 1 - layer) * rows + far});
+      }
+      places = std::max(places, bond.layers_below * rows);
     }
   }
-  int layers = 0;
-  for (const CrossingBond& bond : bonds_) layers = std::max(layers, bond.layer + 1);
-  dilatations_.resize(layers);
+  dilatations_.resize(places);
   set_dilatations();
 }
 
 void SeparatedHalves::set_dilatations() {
   std::fill(dilatations_.begin(), dilatations_.end(), 0.0);
   for (const CrossingBond& bond : bonds_) {
-    dilatations_[bond.layer] += 3 * bond.weight * bond.length * bond.extension / weighted_volume_;
+    dilatations_[bond.place] += 3 * bond.weight * bond.length * bond.extension / weighted_volume(bond.place);
   }
 }
 
 double SeparatedHalves::bond_energy(const CrossingBond& bond) const {
-  const double both = dilatations_[bond.layer] + dilatations_[bond.far_layer];
-  const ScalarState sum = scalar_state(lattice_.moduli, both, weighted_volume_);
+  const auto state_at = [this](int place) {
+    return scalar_state(lattice_.moduli, dilatations_[place], weighted_volume(place));
+  };
+  const ScalarState near = state_at(bond.place), far = state_at(bond.far_place);
   const double omega = bond.weight / std::pow(lattice_.spacing, 3);
-  return 0.5 * omega * (sum.a * bond.length + 2 * sum.b * bond.extension) * bond.extension;
+  return 0.5 * omega * ((near.a + far.a) * bond.length + (near.b + far.b) * bond.extension) * bond.extension;
 }
 
 double SeparatedHalves::most() const {
@@ -74,9 +85,9 @@ double SeparatedHalves::energy() const {
   double sum = 0;
   for (const double theta : dilatations_) sum += (0.5 * bulk - 7.5 * shear / 9) * theta * theta;
   for (const CrossingBond& bond : bonds_) {
-    sum += 7.5 * shear * bond.weight * bond.extension * bond.extension / weighted_volume_;
+    sum += 7.5 * shear * bond.weight * bond.extension * bond.extension / weighted_volume(bond.place);
   }
-  return sum;
+  return sum / static_cast<double>(weighted_volumes_.size());
 }
 
 void SeparatedHalves::cut(double least) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "fracture/plates.hpp"
 #include "fracture/separation.hpp"
 #include "mechanics/kernels/bonds.hpp"
 
@@ -116,21 +117,32 @@ double energy_of_half(const PulledLattice& lattice, const std::vector<LatticeBon
   return sum + energy_of_mean_springs(lattice, family, layers, opening, broken);
 }
 
+// The family of a point of each row.
+std::vector<std::vector<LatticeBond>> families_of_rows(const PulledLattice& lattice) {
+  std::vector<std::vector<LatticeBond>> families(std::max(1, lattice.rows), family_of(lattice));
+  for (int row = 0; row < std::ssize(families); ++row) {
+    std::erase_if(families[row], [&](const LatticeBond& bond) { return far_row(lattice, bond, row) < 0; });
+  }
+  return families;
+}
+
 }  // namespace
 
 double energy_of_separation(const PulledLattice& lattice) {
   if (lattice.formulation == Formulation::quadratic) return separation_of_cells(lattice);
-  const std::vector<LatticeBond> family = family_of(lattice);
-  const auto [openings, layers] = openings_of(family);
+  const std::vector<std::vector<LatticeBond>> families = families_of_rows(lattice);
+  const auto [openings, layers] = openings_of(family_of(lattice));
   double released = 0, before = 0;
   for (const double opening : openings) {
     if (opening <= before * (1 + 1e-12)) continue;
     const double after = opening * (1 + 1e-12);
-    released += energy_of_half(lattice, family, layers, opening, before) -
-                energy_of_half(lattice, family, layers, opening, after);
+    for (const std::vector<LatticeBond>& family : families) {
+      released += energy_of_half(lattice, family, layers, opening, before) -
+                  energy_of_half(lattice, family, layers, opening, after);
+    }
     before = after;
   }
-  return 2 * lattice.spacing * released;  // both halves
+  return 2 * lattice.spacing * released / static_cast<double>(families.size());  // both halves
 }
 
 GradualCrack gradual_crack(const PulledLattice& lattice, double fracture_energy) {
@@ -189,6 +201,15 @@ void set_gradual_crack(BlockMaterial& material, const GradualCrack& crack) {
 }
 
 }  // namespace
+
+double part_in_plates(const Body& body, std::size_t block, int layers) {
+  PulledLattice lattice = lattice_of(body, block);
+  const bool by_energy = body.blocks[block].material.damage->critical_bond_energy.has_value();
+  const auto energy = [&] { return by_energy ? separation_by_bond_energy(lattice) : energy_of_separation(lattice); };
+  const double without_faces = energy();
+  lattice.rows = layers;
+  return energy() / without_faces;
+}
 
 void set_critical_values(Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {

@@ -18,6 +18,7 @@ struct PulledLattice {
   materials::Moduli moduli;
   ResidualKind springs = ResidualKind::none;  // residual that the springs act on
   double coefficient = 0;                     // c of the springs
+  int rows = 0;                               // ordinary: of a plate with faces across x; 0: it is without faces
 };
 
 struct LatticeBond {
@@ -29,6 +30,9 @@ struct LatticeBond {
 
 // The family of an interior point. An opening Δ between the halves lengthens a bond across the plane by Δ |ξ_z|/|ξ|.
 std::vector<LatticeBond> family_of(const PulledLattice& lattice);
+
+// The row of a plate in which the far end of a bond from a row lies; −1: beyond a face.
+int far_row(const PulledLattice& lattice, const LatticeBond& bond, int row);
 
 // The openings of the bonds across the plane from a point in the layer above it, ascending, and the number of layers
 // that have such bonds.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "fracture/separation.hpp"
 #include "mechanics/formulation/cell_fit.hpp"
@@ -112,6 +113,12 @@ std::vector<LatticeBond> family_of(const PulledLattice& lattice) {
     }
   });
   return family;
+}
+
+int far_row(const PulledLattice& lattice, const LatticeBond& bond, int row) {
+  if (lattice.rows == 0) return row;
+  const int far = row + static_cast<int>(std::lround(bond.xi[0] / lattice.spacing));
+  return far >= 0 && far < lattice.rows ? far : -1;
 }
 
 Openings openings_of(const std::vector<LatticeBond>& family) {

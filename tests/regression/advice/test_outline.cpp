@@ -588,6 +588,29 @@ TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
                        " % too stiff in tension by the material model 'Elastic'"});
 }
 
+// By bond energy 0.257, 0.468 of the fracture energy were seen where plates of one and two layers were cut in small
+// steps; by sums over the bonds 0.257, 0.471, 0.736, and by stretch 1.164, 1.142, 1.046.
+TEST(ThinMembers, WhoseCracksDissipateAnotherEnergyAreToldOf) {
+  const auto told = [](int layers, const std::string& model) {
+    const RunFolder folder(Lattice{.nx = 12, .ny = 12, .nz = layers});
+    Parts parts;
+    parts.materials = section("copper", key("Material Model", "Elastic") + key("Density", "1000") +
+                                            key("Young's Modulus", "1e7") + key("Poisson's Ratio", "0.25"));
+    parts.damage = section("tears", key("Damage Model", model) + key("Fracture Energy", "1000"));
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") +
+                                        key("Horizon Factor", "3.015") + key("Damage Model", "tears"));
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  const std::string cut = " a flat cut from face to face dissipates ", of = " of the Fracture Energy";
+  expect_told(told(1, "Bond Energy"), {"block 'bar': in plates of 1 layer" + cut + "0.26" + of});
+  expect_told(told(2, "Bond Energy"), {"in plates of 2 layers" + cut + "0.47" + of});
+  expect_told(told(4, "Bond Energy"), {"in plates of 4 layers" + cut + "0.74" + of});
+  expect_told(told(1, "Critical Stretch"), {"in plates of 1 layer" + cut + "1.2" + of});
+  expect_told(told(2, "Critical Stretch"), {"in plates of 2 layers" + cut + "1.1" + of});
+  EXPECT_EQ(told(4, "Critical Stretch").find(cut), std::string::npos);  // 1.05
+  EXPECT_EQ(told(12, "Bond Energy").find(cut), std::string::npos);
+}
+
 // Twice as high as wide, and cubes; 3 points to each side within the horizon, and as many at a surface.
 TEST(OblongCells, OfOrdinaryPointsSurfacesAndCracksAreToldOf) {
   const std::string dilatation =
