@@ -63,13 +63,19 @@ int layers_of_plates(const Domain& domain, const MaterialBlock& block, const Blo
     ++counts.back();
   }
   domain.communicator.sum(counts);
-  for (int layers = 1; layers < most; ++layers) {
-    const double seen = std::min(1.0, double(most - layers) / layers);  // part of a plate's points that see both faces
-    for (int axis = 0; axis < 3; ++axis) {
+  const auto layers_along = [&](int axis) {
+    for (int layers = 1; layers < most; ++layers) {
+      const double seen =
+          std::min(1.0, double(most - layers) / layers);  // part of a plate's points that see both faces
       if (counts[axis * most + layers] > 0.5 * seen * counts.back()) return layers;
     }
+    return 0;
+  };
+  int found = 0, axes = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (const int layers = layers_along(axis)) found = layers, ++axes;
   }
-  return 0;
+  return axes == 1 ? found : 0;  // bars have two pairs of faces
 }
 
 }  // namespace

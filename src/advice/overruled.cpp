@@ -121,23 +121,24 @@ std::vector<double> times_of(const Situation& situation, const std::vector<Held>
 // For each tool and condition: the time of the first contact, and the points met.
 using Meetings = std::map<std::pair<int, int>, std::pair<double, std::set<int>>>;
 
-// The travel of a tool at a time, m. The points decide how far a force moves a tool; here it does so by the least that
-// counts, which shows if it presses on points that it touches.
-Vector pressed_offset(const RigidTool& tool, double time, double spacing) {
-  Vector offset = tool.offset(time), force = Vector::Zero();
+// The points decide how far a force moves a tool. Here it does so by the least that counts, in spacings, which shows if
+// the tool presses on points that it touches.
+Vector pressed(const RigidTool& tool, double time) {
+  Vector force = Vector::Zero();
   for (int c = 0; tool.free && c < 3; ++c) {
-    if (tool.free->force[c]) force[c] = (*tool.free->force[c])(0, 0, 0, time);
+    if (tool.free->force[c]) force[c] = tool.free->force[c]->evaluate(Vector::Zero(), time);
   }
-  return offset + 2 * deep * spacing * force.stableNormalized();
+  return force.allFinite() ? Vector(2 * deep * force.stableNormalized()) : Vector(Vector::Zero());
 }
 
 void look(const RigidTool& tool, int n, const std::vector<Held>& held, const Body& body,
           const std::vector<Vector>& ways, double time, Meetings& met) {
+  const Vector offset = tool.offset(time), press = pressed(tool, time);
   for (const Held& one : held) {
     for (const int i : one.points) {
       if (!std::binary_search(tool.points.begin(), tool.points.end(), i)) continue;
       const auto [X, is_face] = place_of(one, i, body.domain);
-      const Vector place = X + ways[i] - pressed_offset(tool, time, body.domain.cloud.spacings[i]);
+      const Vector place = X + ways[i] - offset - body.domain.cloud.spacings[i] * press;
       const auto met_by = [&](const auto& shape) {
         return is_face ? surface(shape, place) : tool.met_by(i, shape, place);
       };
@@ -200,7 +201,8 @@ namespace {
 void tell_scaled_ends(const Situation& situation, std::ostringstream& text) {
   constexpr double tells = 1.5;  // s, 1 % of the energy
   const Body& body = situation.scene.body;
-  if (body.mass_scale.empty()) return;
+  // A rank without points has none.
+  if (body.domain.communicator.max(body.mass_scale.empty() ? 0.0 : 1.0) == 0) return;
   situation.scene.conditions.visit([&]<class One>(const One& one) {
     if constexpr (std::is_same_v<One, NonReflectingEnd>) {
       double most = 1;

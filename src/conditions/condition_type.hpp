@@ -92,7 +92,7 @@ concept AddsForces = requires(const T& condition, double t, double impulse_time,
 
 // If acts_at_start: for the initial velocities, and for the check for undeclared contact (setup), which looks ahead.
 //   predict_velocities  writes the velocities that it imposes at time t into `velocities`; if it imposes positions,
-//                       their mean over `moment` (s)
+//                       their slope at t, from the `moment` (s) after it
 template <class T>
 concept PredictsVelocities = requires(const T& condition, double t, double moment, const Body& body,
                                       std::vector<Vector>& velocities) {

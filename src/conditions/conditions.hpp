@@ -57,7 +57,7 @@ void change_velocities(Conditions& conditions, double t, const PointTimeSteps& s
 // The conditions that act at times between whole steps.
 Conditions in_substeps(const Conditions& conditions, const MovingPoints& moving);
 
-// Velocities of owned points at time t: those that conditions impose, as their mean over `moment` (s), else the initial
+// Velocities of owned points at time t: those that conditions impose, from the `moment` (s) after t, else the initial
 // ones.
 std::vector<Vector> predicted_velocities(const Conditions& conditions, double t, double moment, const Body& body);
 

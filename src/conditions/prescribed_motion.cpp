@@ -1,5 +1,7 @@
 #include "conditions/prescribed_motion.hpp"
 
+#include <cmath>
+
 #include "base/math/time_integral.hpp"
 #include "conditions/velocity_update.hpp"
 
@@ -15,6 +17,15 @@ double imposed_velocity(const PrescribedMotion& motion, int c, int i, const Velo
   if (motion.is_velocity) return value(update.t + 0.5 * dt);
   const double target = body.domain.reference(i)[c] + update.steps.after(value, update.t, dt);
   return (target - body.domain.sites[i].current[c]) / dt;
+}
+
+// The slope of a displacement at t, m/s, to second order in `moment`: 0 of one that grows with t². Where it jumps, the
+// mean, which the first step imposes; where it begins later, 0.
+double slope_of(const auto& value, double t, double moment) {
+  const double half = value(t + 0.5 * moment) - value(t), whole = value(t + moment) - value(t);
+  const double slope = (4 * half - whole) / moment, mean = whole / moment;
+  if (slope * mean <= 0) return 0;
+  return std::abs(slope) > 2 * std::abs(mean) ? mean : slope;
 }
 
 // All points for one component after the other, which equals one condition per component to the last bit.
@@ -45,8 +56,7 @@ void PrescribedMotion::predict_velocities(double t, double moment, const Body& b
                                           std::vector<Vector>& velocities) const {
   for_each_component(*this, [&](int c, int i) {
     const auto at = [&](double time) { return value(body.domain.reference(i), time); };
-    // A displacement's slope at t, to second order: of one that grows with t² it is 0.
-    velocities[i][c] = is_velocity ? at(t) : (4 * at(t + 0.5 * moment) - 3 * at(t) - at(t + moment)) / moment;
+    velocities[i][c] = is_velocity ? at(t) : slope_of(at, t, moment);
   });
 }
 

@@ -131,7 +131,13 @@ bool has_hidden_comment(std::string_view line) {
     const char c = line[i];
     if (c == '#') return quote != 0 || (i > 0 && line[i - 1] != ' ' && line[i - 1] != '\t');
     if (quote != 0) {
-      if (c == quote) quote = 0;
+      if (c == quote && quote == '\'' && i + 1 < line.size() && line[i + 1] == quote) {
+        ++i;  // '' stands for one
+      } else if (c == quote) {
+        quote = 0;
+      } else if (c == '\\' && quote == '"') {
+        ++i;
+      }
     } else if ((c == '\'' || c == '"') && std::string_view(":,[{-").find(before) != std::string_view::npos) {
       quote = c;
     }

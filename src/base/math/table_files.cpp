@@ -56,7 +56,9 @@ bool seems_a_number(std::string_view word) {
   for (const std::string_view before : {"\"", "'", "+", "-", "−"}) {
     if (word.starts_with(before)) word.remove_prefix(before.size());
   }
-  if (!word.empty() && std::string_view("0123456789.").find(word[0]) != std::string_view::npos) return true;
+  if (!word.empty() && std::string_view("0123456789.").find(word[0]) != std::string_view::npos) {
+    return word.find_first_not_of("0123456789.,+-eEdD_\"'") == std::string_view::npos;  // "2nd" and "0deg" are words
+  }
   std::string lower(word);
   std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return lower == "nan" || lower == "inf" || lower == "infinity";

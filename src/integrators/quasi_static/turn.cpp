@@ -9,6 +9,7 @@ namespace strut {
 namespace {
 
 constexpr double least_turn = 1e-4;    // rad: less is none
+constexpr double on_a_line = 1e-9;     // second over first singular value: round-off
 constexpr double most_strained = 0.1;  // of the motion about the center, root of the sum of squares
 
 struct Centers {
@@ -39,7 +40,11 @@ Tensor turn_of(const std::vector<HeldPoint>& points, const Centers& centers, con
   if (!(moved > least_turn * least_turn * size)) return Tensor::Identity();
   const Eigen::JacobiSVD<Tensor> parts(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Tensor U = parts.matrixU(), V = parts.matrixV();
-  const Tensor turn = U * Vector(1, 1, (U * V.transpose()).determinant()).asDiagonal() * V.transpose();
+  const Vector sizes = parts.singularValues();
+  Tensor turn = U * Vector(1, 1, (U * V.transpose()).determinant()).asDiagonal() * V.transpose();
+  if (sizes[1] < on_a_line * sizes[0]) {  // a spin about the line moves no point: the shortest turn
+    turn = Eigen::Quaterniond::FromTwoVectors(V.col(0), U.col(0)).toRotationMatrix();
+  }
   double rest = 0;
   for (const HeldPoint& point : points) {
     rest += (point.after - centers.after - turn * (point.before - centers.before)).squaredNorm();

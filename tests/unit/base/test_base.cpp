@@ -259,7 +259,7 @@ TEST_F(TableFiles, AreReadAsInstrumentsWriteThem) {
   for (const char* content :
        {"0,0\n1e-3,-5.25\n", "\xef\xbb\xbf# of a press\r\nTime,Force\r\n\r\n+0, 0\r\n0.001 , -5.25",
         "Time,Force # of a press\n0,0 # a\n1e-3,-5.25# b\n", "t / s;F / N\n0;0\n# a pause\n1E-3;-525e-2\n",
-        "0 0\n\t1e-3 \t -5.25"}) {
+        "0 0\n\t1e-3 \t -5.25", "time,2nd gauge\n0,0\n1e-3,-5.25"}) {
     EXPECT_EQ(numbers(content), "0, 0, 0.001, -5.25") << content;
   }
   EXPECT_EQ(numbers("-1 0.1\n0 0.30000000000000004"), "-1, 0.1, 0, 0.30000000000000004");  // every bit

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "contract/polyurethane.hpp"
+#include "integrators/quasi_static/turn.hpp"
 #include "verification/loading.hpp"
 
 namespace strut {
@@ -361,6 +362,26 @@ TEST(QuasiStatic, ABarThatTurnsWhileItIsStretchedHasABalancedLedger) {
   loaded.move(ends, 2, "1e-4*z*t");
   QuasiStatic solver = loaded.solver({.load_steps = 9});
   EXPECT_LT(load(solver, [](QuasiStatic& now) { EXPECT_LT(now.ledger().balance_error, 0.01); }).balance_error, 0.01);
+}
+
+// Points in a row, whose transverse forces turn with it: their moment times the angle, either way round.
+TEST(QuasiStatic, ARowThatTurnsDoesTheWorkOfItsMoment) {
+  const Communicator world;
+  const double angle = 0.2, arm = 2, force = 3;  // rad, m, N
+  for (const double turn : {angle, -angle}) {
+    const Tensor by = Eigen::AngleAxisd(turn, Vector::UnitZ()).toRotationMatrix();
+    std::vector<HeldPoint> row;
+    for (const double side : {-1.0, 0.0, 1.0}) {
+      const Vector place(side * arm, 0, 0), pull(0, side * force, 0);
+      if (world.rank() == 0) row.push_back({place, by * place, pull, by * pull});
+    }
+    double chords = 0;
+    for (const HeldPoint& one : row) {
+      chords += 0.5 * (one.force_before + one.force_after).dot(one.after - one.before);
+    }
+    const double work = world.sum(chords + work_beyond_chords(row, world));
+    EXPECT_NEAR(work, 2 * force * arm * turn, 1e-12);
+  }
 }
 
 TEST(QuasiStatic, IsLeftAtItsLastEquilibrium) {
