@@ -151,10 +151,10 @@ class Studies(InFolder):
         deck = Deck(str(self.folder / "bar.yaml"))
         self.assertEqual([float(deck.get("Blocks", "bar", "Horizon Factor")), float(deck.get("Materials", "copper", "Young's Modulus"))],
                          [1.75, 117e9])
-        (self.folder / "bar.yaml").write_text("Solver:\n\tFinal Time: 1\n")
+        (self.folder / "bar.yaml").write_text(IN_YAML.replace("bar.g}", "bar.g"))
         status, _, errors = self.study("bar.study", "other")
         self.assertEqual(status, 1)
-        self.assertIn("bar.yaml is not a deck: line 2: indented by a tab; expected spaces, as YAML has them", errors)
+        self.assertIn("bar.yaml is not a deck: ", errors)
 
     def test_the_band_of_curves(self):
         cases = []
