@@ -173,20 +173,6 @@ void bend(const Domain& domain, double spacing, std::vector<Piece>& own) {
   }
 }
 
-// Collective. The images of bodies: contact does not see mirror images, but ρ must include them.
-Images images_of(const Domain& domain, double reach) {
-  if (!domain.periods.empty()) return {domain.periods, reach};
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (const Mirror& mirror : domain.mirrors) {
-    Eigen::AlignedBox3d box;
-    for (int i = 0; i < domain.owned; ++i) {
-      if (domain.body_of(i) == mirror.body) box.extend(domain.reference(i));
-    }
-    boxes.push_back(common_box(box, domain.communicator));
-  }
-  return {domain.mirrors, boxes, reach};
-}
-
 // Calls visit(x) for a place before a piece, and for its images.
 template <class Visit>
 void over_images(const Piece& piece, const Images& images, const Vector& place, const Visit& visit) {

@@ -124,7 +124,7 @@ int line_indented_by_tab(const std::string& text) {
   return 0;
 }
 
-// Whether the line has a '#' that Teuchos takes for a comment, though YAML does not: within a word or in quotes.
+// True if the line has a '#' within a word or in quotes. YAML takes it as a part of the value, Teuchos as a comment.
 bool has_hidden_comment(std::string_view line) {
   char quote = 0, before = ':';  // the last character that is no blank, after which a quote opens
   for (std::size_t i = 0; i < line.size(); ++i) {

@@ -54,19 +54,10 @@ std::vector<Sample> own_samples(const Domain& domain) {
   return samples;
 }
 
-// The images of the domain's bodies within `reach`; nothing if there are too many, of bodies thinner than that.
-std::optional<Images> images_of(const Domain& domain, double reach) {
-  if (!domain.periods.empty()) return Images(domain.periods, reach);
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (const Mirror& mirror : domain.mirrors) {
-    Eigen::AlignedBox3d box;
-    for (int i = 0; i < domain.owned; ++i) {
-      if (domain.body_of(i) == mirror.body) box.extend(domain.reference(i));
-    }
-    boxes.push_back(common_box(box, domain.communicator));
-  }
+// The images of bodies within `reach` (m); nothing if there are too many.
+std::optional<Images> few_images_of(const Domain& domain, double reach) {
   try {
-    return Images(domain.mirrors, boxes, reach);
+    return images_of(domain, reach);
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -138,7 +129,7 @@ std::vector<double> thicknesses(const Domain& domain) {
   Eigen::AlignedBox3d mine;
   for (int i = 0; i < domain.owned; ++i) mine.extend(domain.reference(i));
   std::vector<double> thicknesses(blocks, 0);
-  const std::optional<Images> images = images_of(domain, farthest);
+  const std::optional<Images> images = few_images_of(domain, farthest);
   if (!images) return thicknesses;
   add_images(domain, *images, common_box(mine, domain.communicator), farthest, samples);
   add_nearby(samples, mine, farthest, domain.communicator);

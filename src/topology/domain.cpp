@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/numbers.hpp"
+#include "topology/bounding_box.hpp"
 #include "topology/neighbors/order.hpp"
 #include "topology/partition.hpp"
 
@@ -172,6 +173,19 @@ double family_volume(const Domain& domain, int i) {
   double volume = 0;
   domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
   return volume;
+}
+
+Images images_of(const Domain& domain, double reach) {
+  if (!domain.periods.empty()) return {domain.periods, reach};
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Mirror& mirror : domain.mirrors) {
+    Eigen::AlignedBox3d box;
+    for (int i = 0; i < domain.owned; ++i) {
+      if (domain.body_of(i) == mirror.body) box.extend(domain.reference(i));
+    }
+    boxes.push_back(common_box(box, domain.communicator));
+  }
+  return {domain.mirrors, boxes, reach};
 }
 
 Tensor family_spread(const Domain& domain, int i) {

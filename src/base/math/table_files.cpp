@@ -51,7 +51,7 @@ std::vector<std::string_view> cells(std::string_view line) {
   return found;
 }
 
-// Of any spelling (1.D0, "1", nan): such a word is none of a header.
+// True for a number in any spelling (1.D0, "1", nan), which a header does not have.
 bool seems_a_number(std::string_view word) {
   for (const std::string_view before : {"\"", "'", "+", "-", "−"}) {
     if (word.starts_with(before)) word.remove_prefix(before.size());

@@ -147,8 +147,8 @@ TEST(EnergyOfSeparation, ByBondEnergyIsThatOfAllBondsAcrossThePlane) {
   EXPECT_LT(error(9.1), 0.5 * error(3.015));
 }
 
-// What a block whose halves are pulled apart without deformation dissipates, over what is expected. In steps so small
-// that no bond goes far beyond its limit. `rows`: of a plate.
+// The energy that a block dissipates while its rigid halves are pulled apart, over the expected one. The steps are so
+// small that no bond goes far beyond its limit. `rows`: of a plate.
 double cut_over_expected(const Kind& kind, int rows = 0) {
   constexpr double s = 1e-4;  // small strains
   const Communicator world;
