@@ -16,17 +16,12 @@ Layers::Layers(const deck::Profile& profile, const Body& body, const std::string
     : direction_(profile.direction), count_(profile.layers) {
   const Communicator& ranks = body.domain.communicator;
   group_ = PointGroup(body.domain.cloud, profile.node_set, path);
-  // Layers of nodes end at nodes, whether or not anything else in the deck needs their cells.
-  const auto reach = [&body](int i, const Vector& to) {
-    const PointCloud& cloud = body.domain.cloud;
-    return cloud.at == PointsAt::nodes ? 0 : reach_of_cell(cloud, body.domain.volume(i), i, to);
-  };
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (int i = 0; i < body.owned(); ++i) {
     if (!group_.counts(body.domain.cloud, i)) continue;
-    const double place = direction_.dot(body.domain.reference(i));
-    low = std::min(low, place - reach(i, -direction_));
-    high = std::max(high, place + reach(i, direction_));
+    const double place = direction_.dot(body.domain.reference(i)), volume = body.domain.volume(i);
+    low = std::min(low, place - reach_of_cell(body.domain.cloud, volume, i, -direction_));
+    high = std::max(high, place + reach_of_cell(body.domain.cloud, volume, i, direction_));
   }
   low_ = ranks.min(low);
   thickness_ = (ranks.max(high) - low_) / count_;

@@ -19,8 +19,8 @@ bool has_known_edges(const Domain& domain, int i) {
 
 double edge_of_cell(const Domain& domain, int i, const Vector& direction) {
   if (!has_known_edges(domain, i)) return domain.cloud.spacings[i];
-  const auto reach = [&](const Vector& to) { return reach_of_cell(domain.cloud, domain.volume(i), i, to); };
-  return 2 * std::max(reach(direction), reach(-direction));
+  const CellShape& shape = domain.cloud.shapes[i];
+  return 2 * std::max(extent_of(shape, direction), extent_of(shape, -direction));
 }
 
 CellEdges edges_of_cell(const Domain& domain, int i) {

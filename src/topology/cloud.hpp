@@ -69,9 +69,12 @@ struct PointCloud {
   std::size_t size() const { return ids.size(); }
 };
 
-// The extent of the cell of point i, of this volume (m³), beyond the point in a direction of unit length, m. From the
-// cell's moments: for a slab √3 times the root of its second moment. Without shapes in the cloud, that of a cube; 0 for
-// a node, because nodes at a surface lie on it.
+// The extent of a cell beyond its point in a direction of unit length, m. From the cell's moments: for a slab √3 times
+// the root of its second moment.
+double extent_of(const CellShape& shape, const Vector& direction);
+
+// The same for the cell of point i, of this volume (m³), as far as a body reaches beyond its points. Without shapes in
+// the cloud, that of a cube; 0 for a node, with or without shapes, because nodes at a surface lie on it.
 double reach_of_cell(const PointCloud& cloud, double volume, int i, const Vector& direction);
 
 }  // namespace strut
