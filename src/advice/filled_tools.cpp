@@ -48,8 +48,8 @@ std::string filled_tools(const Situation& situation) {
   text.precision(3);
   for (std::size_t n = 0; n < tools.size(); ++n) {
     const Vector offset = tools[n].offset(situation.start);
-    // Cells that were cut when the mesh was read are not cut by a later run.
-    const bool cuts = tools[n].reaches && !situation.deck.start_from;
+    // What an earlier run has cut off stays so.
+    const bool cuts = tools[n].reaches && !scene.tools[n].is_resumed;
     Met inside, cells;
     for (const int i : tools[n].points) {
       const Vector place = scene.body.current(i) - offset;

@@ -68,6 +68,11 @@ std::string uneven_dilatation(const Situation& situation) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     body.domain.communicator.sum(std::span<double>(sums[b].data(), 9));
     if (!(sums[b].trace() > 0)) continue;
+    for (const Mirror& mirror : body.domain.mirrors) {  // the images count, too
+      if (mirror.body != body.domain.blocks[b].body) continue;
+      const Tensor turn = Reflection::by(mirror).turn;
+      sums[b] = (0.5 * (sums[b] + turn * sums[b] * turn.transpose())).eval();
+    }
     const Vector counts = Eigen::SelfAdjointEigenSolver<Tensor>(3 / sums[b].trace() * sums[b]).eigenvalues();
     if (std::max(counts[2] - 1, 1 - counts[0]) < worth_saying) continue;
     text << "WARNING: block '" << body.blocks[b].name << "': its points are not on a cubic lattice, so the dilatation "

@@ -297,9 +297,11 @@ void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::functi
   if (!kept.steps || !kept.conditions)
     scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));
+  auto of_scene = scene.tools.begin();
   scene.conditions.visit([&]<class Type>(Type& one) {
     if constexpr (std::is_same_v<Type, RigidTool>) {
-      if (!knows_reaches(one.reaction_place)) one.set_reaches(t, scene.body, BodyAt::present);
+      of_scene->is_resumed = knows_reaches(one.reaction_place);
+      if (!of_scene++->is_resumed) one.set_reaches(t, scene.body, BodyAt::present);
     }
   });
 }

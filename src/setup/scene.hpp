@@ -21,6 +21,7 @@ namespace strut {
 struct ToolOfScene {
   std::string name;
   std::shared_ptr<bool> touched;  // on this rank
+  bool is_resumed = false;        // a checkpoint knows where it has cut cells
 };
 
 struct Scene {

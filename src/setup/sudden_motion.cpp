@@ -23,9 +23,11 @@ constexpr double no_jump = 1e-6, sudden = 0.01;
 constexpr double sudden_strain = 1e-4;
 
 // The least time between two jumps of `of_time` by a tenth of its largest value or more, s; infinite without two.
-double shortest_pulse(const OfTime& of_time, double start, double end) {
+// `acts_before`: the value acts before the start, too.
+double shortest_pulse(const OfTime& of_time, double start, double end, bool acts_before) {
   double last = -std::numeric_limits<double>::infinity(), shortest = -last;
   for (const Jump& jump : jumps_of(of_time, start, end)) {
+    if (acts_before && jump.time == start) continue;
     shortest = std::min(shortest, jump.time - last);
     last = jump.time;
   }
@@ -177,6 +179,7 @@ std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& poi
   if (deck.solver.quasi_static) return "";
   constexpr double told = 0.005;  // of the impulse
   const double step = std::ranges::max(wave_times(body));
+  const bool acts_before = deck.start_from || deck.next_solver;
   std::ostringstream text;
   text.precision(2);
   for (std::size_t c = 0; c < points.size(); ++c) {
@@ -184,7 +187,7 @@ std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& poi
       if (!value.depends_on_time()) continue;
       double pulse = std::numeric_limits<double>::infinity();
       at_corners(value, where(points[c], body), [&](const OfTime& of_time) {
-        pulse = std::min(pulse, shortest_pulse(of_time, deck.solver.initial_time, deck.solver.final_time));
+        pulse = std::min(pulse, shortest_pulse(of_time, deck.solver.initial_time, deck.solver.final_time, acts_before));
       });
       if (!(step > told * pulse)) continue;
       text << "WARNING: " << value.path() << ": jumps twice within " << pulse

@@ -1,5 +1,5 @@
 // Peridigm moves points by the increments of a prescribed displacement: what its value is at the initial time is left
-// out, unless it never changes (it is then taken whole).
+// out, unless it never changes or a checkpoint has the displacements so far (it is then taken whole).
 #include <cctype>
 #include <cmath>
 
@@ -55,7 +55,7 @@ void translate(List& condition, double time, Problems& problems) {
 
 void translate_displacements(List& deck, Problems& problems) {
   const List* solver = find_list(deck, "Solver");
-  if (!solver) return;
+  if (!solver || find_list(deck, "Start From")) return;
   const double time = real_of(*solver, "Initial Time").value_or(0);
   for (List& condition : sections_of(deck, {"Boundary Conditions"})) translate(condition, time, problems);
 }

@@ -114,7 +114,8 @@ const std::vector<Case<ConditionPrototype, Problems&>>& entries() {
            "Displacement at the initial time where nothing holds the points, which begin strained. Only in bodies "
            "of 'Elastic', whose forces follow from positions alone."),
        read_initial_displacement},
-      {along_axes("Prescribed Displacement", "m", "Displacement at every time; 0 at the initial time with Verlet."),
+      {along_axes("Prescribed Displacement", "m",
+                  "Displacement at every time; with Verlet it must be 0 at the initial time."),
        read_prescribed_motion<false>},
       {along_axes("Prescribed Velocity", "m/s",
                   "Velocity at every time; with QuasiStatic, its integral over each load step."),

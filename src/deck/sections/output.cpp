@@ -81,8 +81,7 @@ const VectorKey place({.name = "Point", .unit = "m", .meaning = "Position in the
 const Section probes = {.name = "Probes",
                         .meaning =
                             "Positions whose nearest points the history follows, as `Displacement_Z(tip)`: each is a "
-                            "node set of one point, "
-                            "which a run tells at its start.",
+                            "node set of one point, whose position the run prints at its start.",
                         .sections = {{.name = any_name, .required = true, .meaning = "One probe.", .keys = {place}}}};
 
 Profile read_profile(const Values& values, Problems& problems) {

@@ -371,6 +371,28 @@ TEST(Tools, ThatAreInsideOfABodyAtTheStartAreToldOf) {
   EXPECT_EQ(told_of(parts).find("WARNING"), std::string::npos);
 }
 
+// A tool that the checkpoint does not know cuts the cells of the body as it has become.
+TEST(Tools, ThatAreNewInALaterRunAreToldOf) {
+  const RunFolder folder;
+  Parts parts;
+  parts.times = key("Final Time", "1e-8");
+  const auto told = [&](const std::string& name, const std::string& more) {
+    const std::string restart = section("Restart", key("Filename", name + ".restart"));
+    testing::internal::CaptureStdout();
+    EXPECT_TRUE(run(
+        folder.write(name + ".xml", changed(parts.text(), "<ParameterList>\n", "<ParameterList>\n" + restart + more)),
+        folder.world, Start::anew));
+    return testing::internal::GetCapturedStdout();
+  };
+  told("first", "");
+  parts.times = key("Initial Time", "1e-8") + key("Final Time", "2e-8");
+  parts.conditions = plane("floor", "Rigid Plane", "all", "0 0 0.4e-3", "0 0 1");
+  const std::string said =
+      told("second", section("Start From", key("Checkpoint", (folder / "first.restart").string())));
+  if (folder.world.rank() == 0)
+    expect_told(said, {"the tool 'floor' stands in the cells of 16 points at the start, up to 0.0004"});
+}
+
 // The reaches of tetrahedra are estimates, larger than from the center to a face.
 TEST(Tools, ThatTouchTetrahedraStandInNone) {
   const RunFolder folder;

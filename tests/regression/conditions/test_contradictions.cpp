@@ -246,6 +246,18 @@ TEST(Pulses, OfFewStepsAreTold) {
   }
 }
 
+// A load of equilibria that the explicit steps begin without jumps once.
+TEST(Pulses, ThatActedBeforeTheStepsAreNone) {
+  const RunFolder folder;
+  Parts parts = block(along("a", "Body Force", "foot", "z", "t &lt;= 1e-5 ? 1e5*t : 0"));
+  const std::string text =
+      changed(changed(parts.text(), R"(name="Verlet")", R"(name="QuasiStatic")"), "<ParameterList>\n",
+              "<ParameterList>\n" + section("Solver 2", key("Final Time", "2e-5")));
+  const std::string warnings =
+      told_at_the_start(deck::read(folder.write("deck.xml", text), folder.world), folder.world).warnings;
+  EXPECT_EQ(warnings.find("jumps twice"), std::string::npos) << warnings;
+}
+
 // Load steps at 0.5, 1, … µs, ten of them.
 TEST(Values, BetweenLoadStepsAreTold) {
   for (const char* value : {"1e-12/(2.2e-6 - t) - 1e-12/2.2e-6", "1e-4*sin(3.14159265358979e6*2*t)"}) {

@@ -396,6 +396,11 @@ TEST(DeckOfPeridigm, DisplacementsAreTakenFromTheirStart) {
   EXPECT_EQ(value("x*exp(t)", false)(2, 0, 0, 0), 2);
   EXPECT_EQ(value("0.5", true)(2, 0, 0, 1), 0.5);  // never changes: taken whole
   EXPECT_EQ(value("x*t", true).text(), "x*t");     // nothing to take off
+  const std::string goes_on = list("Start From", key("Checkpoint", "string", "first.restart"));
+  const std::string deck = changed(small_deck, R"(<ParameterList name="Solver">)",
+                                   goes_on + conditions("0.5 + t") + R"(<ParameterList name="Solver">)");
+  const auto motion = folder.read(changed(deck, poisson, poisson + key("Disable Plasticity", "bool", "false")));
+  EXPECT_EQ(std::get<PrescribedMotion>(motion.conditions[0].kind).value.text(), "0.5 + t");  // points have it already
 }
 
 TEST(DeckOfPeridigm, SecondFilesOfFieldsAndLoadSteps) {
