@@ -141,9 +141,25 @@ def motion_of(deck, axis, times):
         if None in way:
             continue
         moves[name] = cumulative_trapezoid(way, times, initial=0) if kind == "Prescribed Velocity" else np.array(way)
-        if kind.startswith("Rigid ") and deck.section("Start From") is None:
+        if kind == "Prescribed Displacement":
+            moves[name] = moves[name] - taken_off(deck, value)
+        elif deck.section("Start From") is not None:
+            begins[name] = " since the start of this run (the strain before it, by Start From, is not counted)"
+        elif kind.startswith("Rigid "):
             moves[name], begins[name] = from_the_touch(moves[name], apart_at_first(deck, keys, axis, moves[name][0]))
     return moves, begins
+
+
+def taken_off(deck, value):
+    """What decks of Peridigm, and explicit steps, take off a prescribed displacement that depends on time: its value at the
+    initial time, unless a checkpoint or an initial displacement has moved the points so far already."""
+    others = [value_in(keys, "Type") for keys in deck.sections("Boundary Conditions").values()]
+    whole = deck.root.get("name") != "Peridigm" and deck.section("Solver", "Verlet") is None
+    if whole or "Initial Displacement" in others or deck.section("Start From") is not None:
+        return 0
+    start = strut_tools.number(deck.get("Solver", "Initial Time") or "0") or 0
+    first, later = value_at(value, start), value_at(value, start + 1)
+    return 0 if first is None or first == later else first
 
 
 def from_the_touch(way, apart):

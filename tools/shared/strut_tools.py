@@ -189,11 +189,18 @@ def run_guarded(main, no_memory):
     child = os.fork()
     if child == 0:
         try:
-            return main()
-        except MemoryError:
-            fail(no_memory)
-        except (OSError, OverflowError) as error:
-            fail(str(error))
+            try:
+                return main()
+            except MemoryError:
+                fail(no_memory)
+            except (OSError, OverflowError) as error:
+                fail(str(error))
+        except SystemExit as end:  # what libraries do at the exit after an error says nothing of the file
+            if isinstance(end.code, str):
+                print(end.code, file=sys.stderr)
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(1 if isinstance(end.code, str) else end.code or 0)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal signals both
     signal.signal(signal.SIGTERM, lambda *_: os.kill(child, signal.SIGTERM))
     _, status = os.waitpid(child, 0)

@@ -2,6 +2,7 @@
 import copy
 import glob
 import hashlib
+import itertools
 import json
 import os
 import re
@@ -65,12 +66,17 @@ class Case:
         for name, text in self.texts.items():
             with open(os.path.join(self.folder, name), "w") as file:
                 file.write(text)
-        for name in [*self.links, *([self.mesh] if self.mesh else [])]:
+        for name in [*self.links, *([self.mesh] if self.mesh else []), *self.written()]:
             os.makedirs(os.path.join(self.folder, os.path.dirname(name)), exist_ok=True)
         for name, file in self.links.items():
             os.symlink(file, os.path.join(self.folder, name))
         self.put_state(over=False)
         return False
+
+    def written(self):
+        """The files that a run writes into its folder."""
+        keys = (("Output", "Output Filename"), ("History", "Filename"), ("Restart", "Filename"))
+        return [name for name in (self.source.get(*key) for key in keys) if name and not os.path.isabs(name)]
 
     def start(self, ranks):
         goes_on = self.prepare()
@@ -171,11 +177,13 @@ def claim(out, path, *written):
 
 
 def last_line(path):
-    """The error message of a program."""
-    with open(path, errors="replace") as file:
-        lines = [line.strip() for line in file if line.strip()]
-    own = [line for line in lines if re.match(r"strut[\w-]*: ", line)]
-    return (own or lines or ["it said nothing"])[-1]  # MPI's messages come after it
+    """The error message of a program, with the problems that it lists."""
+    lines = [line for line in logs.text_of(path).split("\n") if line.strip()]
+    own = [n for n, line in enumerate(lines) if re.match(r"strut[\w-]*: ", line)]
+    if not own:
+        return (lines or ["it said nothing"])[-1].strip()
+    listed = itertools.takewhile(lambda line: line.startswith("  "), lines[own[-1] + 1:])  # MPI's messages come after it
+    return lines[own[-1]].strip() + "".join(f"; {line.strip()}" for line in listed)
 
 
 def run_all(cases, jobs, ranks, tell):

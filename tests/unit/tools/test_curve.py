@@ -335,6 +335,15 @@ class Runs(InFolder):
             self.made("block.xml")
             np.testing.assert_allclose([float(row[1]) for row in self.table("block-curve.csv")[1:]], expected, atol=1e-9)
 
+    def test_the_first_value_of_a_displacement_of_peridigm_is_no_strain(self):
+        times = np.linspace(0, 1, 11)
+        self.history({"Time": times, "Reaction_Z(top)": -times, "Reaction_Z(bottom)": times})
+        deck = DECK.replace("-1e-2*t", "-2e-3-1e-2*t")
+        for root, begin, first in (("", "", 0.1), (' name="Peridigm"', "", 0), (' name="Peridigm"', '<ParameterList name="Start From"/>', 0.1)):
+            (self.folder / "block.xml").write_text(deck.replace("<ParameterList>", f"<ParameterList{root}>{begin}", 1))
+            self.made("block.xml")
+            np.testing.assert_allclose([float(row[1]) for row in self.table("block-curve.csv")[1:]], first + 0.5 * times, atol=1e-9)
+
     def test_the_way_of_a_tool_to_the_body_is_no_strain(self):
         corners = np.array([(x, y, z) for z in (0, 8e-3) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], float)
         exodus.write_mesh(str(self.folder / "block.g"), corners, [("bar", "HEX8", np.arange(8)[None], None)], {})

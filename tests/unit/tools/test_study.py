@@ -79,7 +79,7 @@ for deck in "$@"; do :; done
 echo " 50 %  t = 1 s"
 printf 'Time,Mean_Velocity_Z,strut\\n0,1,0\\n1,2,0\\n' > bar.csv
 if [ "$1" = --continue ]; then echo went on >> ../went; exit 0; fi
-if grep -q 'value="-20"' $deck; then echo "deck.xml: error: it was expected" >&2; exit 1; fi
+if grep -q 'value="-20"' $deck; then printf 'strut: deck.xml: 1 problem\\n  Solver: it was expected\\nmpirun has ended\\n' >&2; exit 1; fi
 trap 'touch bar.restart; exit 3' TERM
 while :; do sleep 0.1; done
 """
@@ -205,7 +205,7 @@ class Studies(InFolder):
         self.assertEqual((self.folder / "out/went").read_text(), "went on\n")
         self.assertEqual((status, errors), (1, "tools/study: 1 of 2 runs have failed: see the table\n"))
         self.assertEqual([(r["Mean_Velocity_Z"], r["error"]) for r in self.rows()],
-                         [("2", ""), ("", "deck.xml: error: it was expected")])
+                         [("2", ""), ("", "strut: deck.xml: 1 problem; Solver: it was expected")])
 
     def test_ctrl_c_while_a_mesh_is_made_ends_it_and_leaves_the_run_to_be_made(self):
         programs = self.programs()
