@@ -6,7 +6,7 @@
 #include <fstream>
 #include <limits>
 #include <set>
-#include <sstream>
+#include <variant>
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
@@ -39,10 +39,10 @@ constexpr unsigned made = round | box | of_struts, any = made | file;
 
 struct Key {
   const char* name;
-  unsigned kinds;               // that have it
-  bool required = false;        // by all of them
-  const char* needs = nullptr;  // another key
-  double Body::*number = nullptr;
+  unsigned kinds;                                                          // that have it
+  bool required = false;                                                   // by all of them
+  const char* needs = nullptr;                                             // another key
+  std::variant<double Body::*, int Body::*, Vector Body::*> numbers = {};  // one, a whole one, three
   double low = 0, high = 0;
   const char* expected = nullptr;
   const char* unless = nullptr;  // a key that a lattice may have in its place
@@ -55,7 +55,7 @@ const std::vector<Key> keys = {
     {"elements", made},
     {"centred", lattice_cylinder},
     {"spacing", made, true, nullptr, &Body::spacing, tiny, huge, a_length},
-    {"cells", gathered},
+    {"cells", gathered, false, nullptr, &Body::cells, 2, 16, "a whole number from 2 to 16"},
     {"smallest_cell", gathered, false, "cells", &Body::smallest_cell, 0, 0.9, "a number from 0 to 0.9"},
     {"grading", layered, false, nullptr, &Body::grading, 1, 2, "a number from 1 to 2"},
     {"uniform", layered, false, "grading", &Body::uniform, tiny, huge, a_length},
@@ -63,7 +63,7 @@ const std::vector<Key> keys = {
     {"length", round, true, nullptr, &Body::length, tiny, huge, a_length},
     {"radius", round, true, nullptr, &Body::radius, tiny, huge, a_length},
     {"top_radius", cone, true, nullptr, &Body::top_radius, tiny, huge, a_length},
-    {.name = "size", .kinds = box | of_struts, .required = true, .unless = "count"},
+    {"size", box | of_struts, true, nullptr, &Body::size, tiny, huge, "three lengths > 0", "count"},
     {"cell", of_struts, true, nullptr, &Body::cell, tiny, huge, a_length},
     {"relative_density", of_struts, true, nullptr, &Body::relative_density, tiny, below_one, "a number between 0 and 1",
      "thickness"},
@@ -72,8 +72,8 @@ const std::vector<Key> keys = {
     {"irregularity", foam, false, nullptr, &Body::irregularity, 0, 1, "a number from 0 to 1"},
     {"seed", foam},
     {"sizes", foam, false, nullptr, &Body::sizes, 0, 0.6, "a number from 0 to 0.6"},
-    {"relax", foam},
-    {"stretch", foam},
+    {"relax", foam, false, nullptr, &Body::relax, 0, 1000, "a whole number from 0 to 1000"},
+    {"stretch", foam, false, nullptr, &Body::stretch, 0.2, 5, "three numbers from 0.2 to 5"},
     {"section", foam},
     {"lattice", lattice, true},
     {"count", lattice},
@@ -147,10 +147,25 @@ class Converter {
     if (key.needs != nullptr && entries_.find(key.needs) == nullptr) {
       return fail(entry, std::string("a body without the key '") + key.needs + "' has no key '" + key.name + "'");
     }
-    if (key.number == nullptr) return take(key.name, entry, kind, body);
-    body.*key.number = number(entry.value);
-    if (body.*key.number >= key.low && body.*key.number <= key.high) return;
+    if (key.expected == nullptr) return take(key.name, entry, kind, body);
+    if (take_numbers(key, numbers(entry.value), body)) return;
     fail(entry, std::string(key.name) + " is '" + entry.value + "', expected " + key.expected);
+  }
+
+  // Returns false if they are not as many, not whole, or beyond the limits.
+  static bool take_numbers(const Key& key, const std::vector<double>& values, Body& body) {
+    const auto* const three = std::get_if<Vector Body::*>(&key.numbers);
+    const auto* const whole = std::get_if<int Body::*>(&key.numbers);
+    const auto is_wrong = [&](double x) { return !(x >= key.low && x <= key.high) || (whole && x != std::floor(x)); };
+    if (values.size() != (three ? 3 : 1) || std::ranges::any_of(values, is_wrong)) return false;
+    if (three) {
+      body.** three = Vector(values.data());
+    } else if (whole) {
+      body.** whole = static_cast<int>(values[0]);
+    } else {
+      body.*std::get<double Body::*>(key.numbers) = values[0];
+    }
+    return true;
   }
 
   // Keys that are no numbers with limits.
@@ -171,43 +186,16 @@ class Converter {
     if (key == "method" && (kind & (box | of_struts)) != 0 && body.method == Body::Method::fitted) {
       fail(entry, "a " + name_of(kind) + " has only the method lattice");
     }
-    if (key == "relax") take_relax(entry, body);
     if (key == "section") {
-      body.three_cornered = choice<Section>(key, {"round", "three-cornered"}, 0) == Section::three_cornered;
+      body.three_cornered = choice<int>(key, {"round", "three-cornered"}, 0) == 1;
     }
     if (key == "periodic") take_axes(entry, body);
     if (key == "lattice") take_lattice(entry, body);
     if (key == "count") take_count(entry, body);
-    if (key == "stretch") {
-      body.stretch = vector(entry);
-      if (!(body.stretch.minCoeff() >= 0.2 && body.stretch.maxCoeff() <= 5)) {
-        fail(entry, "stretch is '" + entry.value + "', expected three numbers from 0.2 to 5");
-      }
-    }
-    if (key == "size") {
-      body.size = vector(entry);
-      if (!(body.size.minCoeff() > 0)) fail(entry, "size is '" + entry.value + "', expected three lengths > 0");
-    }
-    if (key == "cells") {
-      const double value = number(entry.value);
-      const bool fits = value >= 2 && value <= 16 && value == std::floor(value);
-      if (!fits) return fail(entry, "cells is '" + entry.value + "', expected a whole number from 2 to 16");
-      body.cells = static_cast<int>(value);
-    }
-  }
-
-  enum class Section { round, three_cornered };
-
-  void take_relax(const Entry& entry, Body& body) {
-    const double value = number(entry.value);
-    const bool fits = value >= 0 && value <= 1000 && value == std::floor(value);
-    if (!fits) return fail(entry, "relax is '" + entry.value + "', expected a whole number from 0 to 1000");
-    body.relax = static_cast<int>(value);
   }
 
   void take_axes(const Entry& entry, Body& body) {
-    std::istringstream stream(entry.value);
-    for (std::string word; stream >> word;) {
+    for (const std::string& word : to_words(entry.value)) {
       const bool is_axis = word.size() == 1 && word[0] >= 'x' && word[0] <= 'z';
       if (!is_axis) {
         return fail(entry, "periodic is '" + entry.value + "', expected axes: x, y, z, with blanks between");
@@ -286,10 +274,14 @@ class Converter {
   // Returns NaN if the word is no finite number.
   static double number(const std::string& word) { return to_finite(word).value_or(NAN); }
 
-  Vector vector(const Entry& entry) {
-    std::istringstream stream(entry.value);
+  static std::vector<double> numbers(const std::string& text) {
     std::vector<double> values;
-    for (std::string word; stream >> word;) values.push_back(number(word));
+    for (const std::string& word : to_words(text)) values.push_back(number(word));
+    return values;
+  }
+
+  Vector vector(const Entry& entry) {
+    const std::vector<double> values = numbers(entry.value);
     const bool fits = values.size() == 3 && std::isfinite(values[0] + values[1] + values[2]);
     if (fits) return {values[0], values[1], values[2]};
     fail(entry, "'" + entry.value + "' is not three numbers");

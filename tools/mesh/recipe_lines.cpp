@@ -9,12 +9,6 @@ namespace strut::mesh {
 
 namespace {
 
-std::string trimmed(const std::string& text) {
-  const auto begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
 class Lines {
  public:
   Lines(const std::vector<std::string>& keys, std::vector<std::string>& problems) : keys_(keys), problems_(problems) {}
@@ -24,7 +18,7 @@ class Lines {
     int lines = 0;
     for (int number = 1; std::getline(stream, text); ++number) {
       if (number == 1) text = without_mark(text);
-      const std::string content = trimmed(text.substr(0, text.find('#')));
+      const std::string content(trimmed(std::string_view(text).substr(0, text.find('#'))));
       if (content.empty()) continue;
       if (content.find('\0') != std::string::npos) throw Error("it is no recipe but holds other than text");
       read_line(content, number);
@@ -60,8 +54,7 @@ class Lines {
       take_foreign(content);
       return fail(number, "expected 'key = value' or '[body]', found '" + content + "'");
     }
-    const std::string key = trimmed(content.substr(0, sign));
-    const std::string value = trimmed(content.substr(sign + 1));
+    const std::string key(trimmed(content.substr(0, sign))), value(trimmed(content.substr(sign + 1)));
     if (std::ranges::find(keys_, key) == keys_.end()) {
       if (key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_ ") != std::string::npos) take_foreign(content);
       return fail(number, "unknown key '" + key + "'" + did_you_mean(key, keys_) + "; keys are " + joined(keys_));
