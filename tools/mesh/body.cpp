@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <numeric>
 
 #include "base/errors.hpp"
 #include "io/exodus/elements.hpp"
@@ -58,40 +59,13 @@ Section section_of(const Body& body, double layer) {
   return lattice_disc(body.radius, layer, body.centered);  // cubes: the fitted spacing in the plane, too
 }
 
-// An extruded body: a section, the heights of its layers' faces in the body's own coordinates, and the ratio of the
-// section's width at the last to that at the first.
-struct Extrusion {
-  const Section& section;
-  const std::vector<double>& levels;
-  double taper;
-  int layers = static_cast<int>(levels.size()) - 1;
-
-  double width(int level) const { return 1 + (taper - 1) * (levels[level] / levels.back()); }
-  io::Mesh hexahedra() const;
-  static std::vector<int> repeated(const std::vector<int>& base, int stride, int times);
-};
-
-// The numbers of `base` in each of `times` layers with `stride` numbers each.
-std::vector<int> Extrusion::repeated(const std::vector<int>& base, int stride, int times) {
-  std::vector<int> numbers;
-  for (int k = 0; k < times; ++k) {
-    for (const int number : base) numbers.push_back(number + k * stride);
-  }
-  return numbers;
-}
-
-std::vector<int> range(int begin, int end) {
-  std::vector<int> numbers;
-  for (int i = begin; i < end; ++i) numbers.push_back(i);
-  return numbers;
-}
-
-io::Mesh Extrusion::hexahedra() const {
+// A section extruded between faces at these heights; `taper`: its width at the last over that at the first.
+io::Mesh extruded(const Section& section, const std::vector<double>& levels, double taper) {
   io::Mesh mesh;
-  const int stride = static_cast<int>(section.nodes.size());
-  for (int k = 0; k <= layers; ++k) {
-    const double w = width(k);
-    for (const Point& p : section.nodes) mesh.nodes.emplace_back(w * p.x(), w * p.y(), levels[k]);
+  const int stride = static_cast<int>(section.nodes.size()), layers = static_cast<int>(levels.size()) - 1;
+  for (const double level : levels) {
+    const double w = 1 + (taper - 1) * (level / levels.back());
+    for (const Point& p : section.nodes) mesh.nodes.emplace_back(w * p.x(), w * p.y(), level);
   }
   io::Mesh::Block& block = mesh.blocks.emplace_back();
   block.type = "HEX8";
@@ -102,8 +76,17 @@ io::Mesh Extrusion::hexahedra() const {
       }
     }
   }
-  mesh.node_sets = {{"zmin", range(0, stride)}, {"zmax", range(layers * stride, (layers + 1) * stride)}};
-  for (const auto& [name, nodes] : section.sides) mesh.node_sets.push_back({name, repeated(nodes, stride, layers + 1)});
+  const auto at_levels = [&](const std::vector<int>& nodes, int first, int last) {
+    std::vector<int> numbers;
+    for (int k = first; k <= last; ++k) {
+      for (const int node : nodes) numbers.push_back(node + k * stride);
+    }
+    return numbers;
+  };
+  std::vector<int> all(stride);
+  std::iota(all.begin(), all.end(), 0);
+  mesh.node_sets = {{"zmin", at_levels(all, 0, 0)}, {"zmax", at_levels(all, layers, layers)}};
+  for (const auto& [name, nodes] : section.sides) mesh.node_sets.push_back({name, at_levels(nodes, 0, layers)});
   return mesh;
 }
 
@@ -169,18 +152,12 @@ std::string note_on_stretch(const Body& body) {
   return text;
 }
 
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  for (const Item& item : items) names.push_back(item.name);
-  return names;
-}
-
 // Bodies have distinct names, but blocks and sets of a file may have the names of others.
-void check_new(const std::vector<std::string>& names, const std::vector<std::string>& more, const std::string& what) {
-  for (const std::string& name : more) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) continue;
-    throw Error("two " + what + " are called '" + name + "': give a body from a file a 'name' of its own");
+template <class Item>
+void check_new(const std::vector<Item>& items, const std::vector<Item>& more, const std::string& what) {
+  for (const Item& item : more) {
+    if (std::ranges::find(items, item.name, &Item::name) == items.end()) continue;
+    throw Error("two " + what + " are called '" + item.name + "': give a body from a file a 'name' of its own");
   }
 }
 
@@ -190,9 +167,8 @@ io::Mesh extruded(const Body& body, std::string& summary) {
   // Cells of a uniform cylinder are as wide as its layers are thick; with growing layers they have the spacing.
   const double across = body.grading > 1 ? body.spacing : height(body) / static_cast<double>(levels.size() - 1);
   const Section section = section_of(body, across);
-  const Extrusion extrusion{section, levels, taper_of(body)};
   summary = summary_of(body, section, levels) + note_on_stretch(body);
-  return extrusion.hexahedra();
+  return extruded(section, levels, taper_of(body));
 }
 
 // The voxels whose center is in the body: all for a box, or those of a cylinder around the center of the grid.
@@ -306,8 +282,8 @@ void shift(io::Mesh& mesh, const Vector& by) {
 }
 
 void append(io::Mesh& mesh, const io::Mesh& body) {
-  check_new(names_of(mesh.blocks), names_of(body.blocks), "blocks");
-  check_new(names_of(mesh.node_sets), names_of(body.node_sets), "node sets");
+  check_new(mesh.blocks, body.blocks, "blocks");
+  check_new(mesh.node_sets, body.node_sets, "node sets");
   const int shift = static_cast<int>(mesh.nodes.size());
   const auto shifted = [&](std::vector<int> nodes) {
     for (int& node : nodes) node += shift;
