@@ -61,25 +61,23 @@ std::string quantity(const std::string& name) {
   return name.substr(0, last + 1);
 }
 
-// The largest magnitude of each quantity in each frame.
-class Scales {
- public:
-  void add(const Series& series) {
-    for (const Variable& variable : series.variables) {
-      std::vector<double>& scale = scales_[{variable.place, quantity(variable.name)}];
-      if (scale.size() < variable.frames.size()) scale.resize(variable.frames.size(), 0.0);
+using Scales =
+    std::map<std::pair<std::string, std::string>, std::vector<double>>;  // by place and quantity, in each frame
+
+// The largest magnitudes in both results.
+Scales scales_of(const Series& a, const Series& b) {
+  Scales scales;
+  for (const Series* series : {&a, &b}) {
+    for (const Variable& variable : series->variables) {
+      std::vector<double>& scale = scales[{variable.place, quantity(variable.name)}];
+      scale.resize(std::max(scale.size(), variable.frames.size()), 0.0);
       for (std::size_t f = 0; f < variable.frames.size(); ++f) {
         scale[f] = std::max(scale[f], magnitude(variable.frames[f]));
       }
     }
   }
-  const std::vector<double>& of(const Variable& variable) const {
-    return scales_.at({variable.place, quantity(variable.name)});
-  }
-
- private:
-  std::map<std::pair<std::string, std::string>, std::vector<double>> scales_;
-};
+  return scales;
+}
 
 const Variable* find(const Series& series, const Variable& like) {
   const auto same = [&](const Variable& v) { return v.name == like.name && v.place == like.place; };
@@ -146,14 +144,12 @@ std::string place_problem(const Series& a, const Series& b, const Tolerance& tol
 
 // The differences of all common variables over the common frames. NaN equals NaN, and differs infinitely from a number.
 std::vector<Difference> differences(const Series& a, const Series& b, const Tolerance& tolerance) {
-  Scales scales;
-  scales.add(a);
-  scales.add(b);
+  const Scales scales = scales_of(a, b);
   std::vector<Difference> all;
   for (const Variable& variable : a.variables) {
     const Variable* other = find(b, variable);
     if (other == nullptr || places(variable) != places(*other)) continue;
-    all.push_back(difference(variable, *other, scales.of(variable), tolerance));
+    all.push_back(difference(variable, *other, scales.at({variable.place, quantity(variable.name)}), tolerance));
   }
   return all;
 }
