@@ -30,11 +30,11 @@ def run(main):
         fail(str(error))
 
 
-def install_missing(packages):
-    """{module: Debian's package}: restarts the script with Debian's Python if need be, and installs what it lacks."""
+def install_missing(*modules):
+    """Restarts the script with Debian's Python if need be, and installs what it lacks."""
     import importlib.util
 
-    missing = [package for module, package in packages.items() if importlib.util.find_spec(module) is None]
+    missing = [f"python3-{'vtk9' if module == 'vtkmodules' else module.lower()}" for module in modules if importlib.util.find_spec(module) is None]
     if not missing:
         return
     debians = "/usr/bin/python3"  # which Debian's packages are for
