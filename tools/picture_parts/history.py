@@ -17,9 +17,7 @@ def finished(figure, panels, clock, out):
     for axes in panels:
         axes.grid(alpha=0.3)
         axes.margins(x=0)
-    save_picture(figure, out, dpi=110)
-    plt.close(figure)
-    return out
+    return save_picture(figure, out)
 
 
 def energies(path, out):

@@ -168,9 +168,13 @@ def begins(path, text):
 MARK = "strut"  # the program that made a picture
 
 
-def save_picture(figure, path, **words):
-    """Saves a picture with a mark of its program, which own_file checks."""
-    figure.savefig(path, metadata={"Software": MARK} if path.endswith(".png") else None, **words)
+def save_picture(figure, path, dpi=110):
+    """Saves a picture with a mark of its program, which own_file checks, and closes it. Returns the path."""
+    from matplotlib import pyplot
+
+    figure.savefig(path, metadata={"Software": MARK} if path.endswith(".png") else None, dpi=dpi)
+    pyplot.close(figure)
+    return path
 
 
 def is_our_picture(path):

@@ -8,7 +8,7 @@ import sys
 import matplotlib.pyplot as plt
 import numpy as np
 from decks import Deck, value_of
-from strut_tools import ROOT, fail, history_of, number, write_table
+from strut_tools import ROOT, fail, history_of, number, save_picture, write_table
 
 from study_parts import bands, logs
 
@@ -122,8 +122,7 @@ def figure(path, study, cases, rows, units):
         axes.grid(alpha=0.3)
         if axes.get_legend_handles_labels()[0]:
             axes.legend(frameon=False)
-    drawing.savefig(path, dpi=110)
-    plt.close(drawing)
+    save_picture(drawing, path)
 
 
 def draw(axes, plot, rows):
