@@ -92,7 +92,7 @@ class Parser(argparse.ArgumentParser):
         self.add_argument(option, type=numbers, **words)
 
     def parse_args(self, words=None):
-        found, unknown = self.parse_known_args(self.joined(sys.argv[1:] if words is None else words))
+        found, unknown = self.parse_known_intermixed_args(self.joined(sys.argv[1:] if words is None else words))
         if unknown:
             self.error(f"unknown option '{unknown[0]}'{nearest(unknown[0], self._option_string_actions)}")
         return found
