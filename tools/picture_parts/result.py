@@ -1,4 +1,5 @@
 """A result (Exodus II) of material points: names, frames and columns, read on demand."""
+import collections
 import os
 
 import exodus
@@ -37,9 +38,7 @@ def without_components(names):
     return list(dict.fromkeys(n[:-1] if n[-1] in "XYZ" and n[:-1] in vectors else n for n in names))
 
 
-class Block:
-    def __init__(self, name, number, nodes, volumes):
-        self.name, self.number, self.nodes, self.volumes = name, number, nodes, volumes
+Block = collections.namedtuple("Block", "name number nodes volumes")
 
 
 class Result:
