@@ -13,7 +13,7 @@ import time
 
 from strut_tools import fail, is_open_mpi, mpirun, own_file, program
 
-from . import inputs
+from . import inputs, logs
 
 EARLY = 3  # exit status of a run that a signal or its wall time has ended
 
@@ -105,12 +105,11 @@ class Case:
             trial = copy.copy(self)
             trial.folder = os.path.join(folder, "trial")
             trial.prepare()
-            with open(trial.log, "a+") as log:
+            with open(trial.log, "a") as log:
                 if trial.make_mesh(log) == 0:
                     subprocess.run(trial.command(ranks, "--check"), cwd=trial.folder, stdout=log, stderr=log,
                                    env=environment())
-                log.seek(0)
-                return log.read()
+            return logs.text_of(trial.log)
 
     def ended(self, stopped=False):
         """True if the run has ended, now or before. One ended by a signal is resumed another time."""
@@ -136,12 +135,8 @@ class Case:
 
     def part(self):
         """Fraction of its simulated time that is computed, 0 to 1."""
-        try:
-            with open(self.log) as file:
-                found = re.findall(r"^ *(\d+) %  t = ", file.read(), re.M)
-            return int(found[-1]) / 100 if found else 0
-        except OSError:
-            return 0
+        found = re.findall(r"^ *(\d+) %  t = ", logs.text_of(self.log), re.M)
+        return int(found[-1]) / 100 if found else 0
 
 
 def environment():
@@ -172,8 +167,7 @@ def claim(out, path, *written):
 
 def last_line(path):
     """The error message of a program."""
-    with open(path, errors="replace") as file:
-        lines = [line.strip() for line in file if line.strip()]
+    lines = [line.strip() for line in logs.text_of(path).split("\n") if line.strip()]
     own = [line for line in lines if re.match(r"strut[\w-]*: ", line)]
     return (own or lines or ["it said nothing"])[-1]  # MPI's messages come after it
 
