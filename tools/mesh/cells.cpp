@@ -82,7 +82,7 @@ Cells gathered(const std::vector<int>& voxels, const std::vector<double>& fills,
   Pieces pieces = connected_within(material, cells.grid, factor);
   measure(material, cells.grid, factor, pieces);
   SmallPieces(material, cells.grid, gathering.smallest * factor * factor * factor, pieces).merge(cells);
-  FlatCells(material, gathering, pieces, cells).mend();
+  mend_flat_cells(material, gathering, pieces, cells);
   return cells;
 }
 
