@@ -1,6 +1,7 @@
 #include "mesh/recipe.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -88,26 +89,14 @@ std::vector<std::string> names_of_keys() {
 }
 
 Kind kind_of(const Body& body) {
-  switch (body.shape) {
-    case Body::Shape::cylinder:
-      return body.method == Body::Method::fitted ? fitted_cylinder : lattice_cylinder;
-    case Body::Shape::cone:
-      return cone;
-    case Body::Shape::box:
-      return box;
-    case Body::Shape::foam:
-      return foam;
-    case Body::Shape::lattice:
-      return lattice;
-    default:
-      return file;
-  }
+  constexpr Kind kinds[] = {lattice_cylinder, cone, box, foam, lattice, file};  // of the shapes
+  if (body.shape == Body::Shape::cylinder && body.method == Body::Method::fitted) return fitted_cylinder;
+  return kinds[static_cast<int>(body.shape)];
 }
 
 std::string name_of(Kind kind) {
-  if (kind == lattice_cylinder) return "lattice cylinder";
-  if (kind == fitted_cylinder) return "fitted cylinder";
-  return kind == cone ? "cone" : kind == box ? "box" : kind == foam ? "foam" : kind == lattice ? "lattice" : "file";
+  constexpr const char* names[] = {"lattice cylinder", "fitted cylinder", "cone", "box", "foam", "lattice", "file"};
+  return names[std::countr_zero<unsigned>(kind)];
 }
 
 // Converts entries to a Body.
