@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/numbers.hpp"
 #include "mesh/body.hpp"
 #include "mesh/cells.hpp"
 #include "mesh/foam.hpp"
@@ -81,9 +82,7 @@ class ArraysReader {
   }
 
   std::vector<std::string> words_of(const std::string& header) const {
-    std::istringstream stream(header);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) words.push_back(word);
+    const std::vector<std::string> words = to_words(header);
     if ((words.size() == 9 || words.size() == 10) && words[0] == "voxels") return words;
     std::string shown = header.substr(0, 60);
     std::ranges::replace_if(
