@@ -160,11 +160,8 @@ std::string summary_of_lattice(const Body& body, const VoxelGrid& grid, const St
   if (body.relative_density > 0) text << " (asked for " << body.relative_density << ")";
   text << " in one piece; " << struts.dropped_pieces << " other pieces of " << struts.dropped_voxels
        << " in all dropped\n";
-  if (has_struts(body.lattice)) {
-    text << "  " << lattice_cell(body.lattice).size() << " struts a cell, ";
-  } else {
-    text << "  ";
-  }
+  text << "  ";
+  if (has_struts(body.lattice)) text << lattice_cell(body.lattice).size() << " struts a cell, ";
   if (!body.is_solid())
     text << 2 * struts.radius / std::cbrt(h.prod()) << " voxels = " << 2 * struts.radius << " m thick; ";
   text << "spacing " << h.transpose() << " m\n";

@@ -117,7 +117,7 @@ class Converter {
       if (entry != nullptr) {
         check_and_take(key, *entry, kind, body);
       } else if (key.required && (key.kinds & kind) != 0 && !has_other(key, kind)) {
-        problems_.push_back("the body that starts in line " + std::to_string(entries_.line()) + " lacks the key '" +
+        problems_.push_back("the body that starts in line " + std::to_string(entries_.line) + " lacks the key '" +
                             key.name + "'");
       }
     }

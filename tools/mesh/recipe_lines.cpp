@@ -25,7 +25,7 @@ class Lines {
       if (++lines == looked_at || stream.peek() == EOF) check_kind(lines);
     }
     if (bodies_.empty()) return {common_};
-    for (Entries& body : bodies_) body.take_defaults(common_);
+    for (Entries& body : bodies_) body.by_key.insert(common_.by_key.begin(), common_.by_key.end());
     return bodies_;
   }
 
@@ -46,7 +46,7 @@ class Lines {
 
   void read_line(const std::string& content, int number) {
     if (content == "[body]") {
-      bodies_.emplace_back(number);
+      bodies_.push_back({number});
       return;
     }
     const auto sign = content.find('=');
@@ -64,7 +64,7 @@ class Lines {
     if (const Entry* first = body.find(key)) {
       return fail(number, "key '" + key + "' again (first in line " + std::to_string(first->line) + ")");
     }
-    body.set(key, {value, number});
+    body.by_key[key] = {value, number};
   }
 
   void fail(int line, const std::string& problem) {

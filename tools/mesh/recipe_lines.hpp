@@ -13,23 +13,15 @@ struct Entry {
   int line = 0;
 };
 
-// The entries of one body, and their errors.
-class Entries {
- public:
-  explicit Entries(int line) : line_(line) {}
+// The entries of one body.
+struct Entries {
+  int line;  // where it begins
+  std::map<std::string, Entry> by_key = {};
 
-  int line() const { return line_; }
-  void set(const std::string& key, Entry entry) { entries_[key] = std::move(entry); }
   const Entry* find(const std::string& key) const {
-    const auto place = entries_.find(key);
-    return place == entries_.end() ? nullptr : &place->second;
+    const auto place = by_key.find(key);
+    return place == by_key.end() ? nullptr : &place->second;
   }
-  // Takes all of `defaults` that this does not have itself.
-  void take_defaults(const Entries& defaults) { entries_.insert(defaults.entries_.begin(), defaults.entries_.end()); }
-
- private:
-  int line_;
-  std::map<std::string, Entry> entries_;
 };
 
 // The entries of each body, with those that stand before the first '[body]' as defaults. Adds a problem, which begins
