@@ -37,11 +37,6 @@ def energies(path, out):
     return finished(figure, panels, clock, out)
 
 
-def named(path, prefixes):
-    """The columns whose names begin with one of the prefixes."""
-    return [name for name in history(path) if name.startswith(prefixes)]
-
-
 def columns(paths, names, out):
     """A panel for each column: of several histories with a legend, of one with its name above."""
     tables = [history(path) for path in paths]
