@@ -172,8 +172,9 @@ def last_line(path):
     return (own or lines or ["it said nothing"])[-1]  # MPI's messages come after it
 
 
-def run_all(cases, jobs, ranks, tell):
-    """Runs several at a time. Returns True if all have ended, False if a signal has stopped them."""
+def run_all(cases, ranks, tell, jobs=None):
+    """Runs several at a time, else as many as there are cores for. Ends the tool if a signal has stopped them."""
+    jobs = jobs or max(1, len(os.sched_getaffinity(0)) // ranks)
     waiting, running, stopped = [c for c in cases if not c.done()], [], []
 
     def stop(*_):
@@ -198,7 +199,8 @@ def run_all(cases, jobs, ranks, tell):
             time.sleep(0.2)
     for number, handler in before.items():
         signal.signal(number, handler)
-    return not stopped
+    if stopped:
+        fail("stopped by a signal; the same command goes on with it")
 
 
 def left(began, ahead, to_do):

@@ -146,13 +146,12 @@ def cost_of(kind, ranks):
             facts = collect.facts_of(case)
             return size, (facts.get("points"), facts.get("steps"), state["seconds"]), f"{plan.name_of(case.values)}, which is done"
     said = kind.cases[-1].check(ranks)
-    points = re.search(r"^([\d,]+) points,", said, re.M)
     steps = re.search(r"about (\S+) steps of|^(\S+) load steps", said, re.M)
     time = re.search(r"^estimated time .*?(?:to|more than) ([^(\n]+)", said, re.M)
     if not time:
         return kind.sizes[-1], (None, None, None), "nothing, as strut --check of the coarsest grid tells no time"
     seconds = sum(float(x) * {"h": 3600, "min": 60, "s": 1}[unit] for x, unit in re.findall(r"([\d.]+) (h|min|s)\b", time[1]))
-    numbers = points and float(points[1].replace(",", "")), steps and float(steps[1] or steps[2]), seconds
+    numbers = collect.last_of("points", said), steps and float(steps[1] or steps[2]), seconds
     return kind.sizes[-1], numbers, "strut --check of the coarsest grid (its longer time)"
 
 
