@@ -21,6 +21,7 @@
 #include "base/errors.hpp"
 #include "base/numbers.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/text.hpp"
 #include "deck/deck.hpp"
 #include "point/path.hpp"
 #include "point_driver.hpp"
@@ -186,12 +187,8 @@ void print(const Driver<L>& point) {
 }
 
 std::string stuck(double time, std::size_t row) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "no step found after t = %.6g s, towards row %zu: the law does not converge, or does not carry the "
-                "prescribed stress",
-                time, row);
-  return text;
+  return text_of("no step found after t = ", time, " s, towards row ", row,
+                 ": the law does not converge, or does not carry the prescribed stress");
 }
 
 template <materials::Law L>

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+#include <iomanip>
 #include <numbers>
 #include <numeric>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "io/exodus/elements.hpp"
 #include "mesh/cells.hpp"
 #include "mesh/foam.hpp"
@@ -93,13 +94,8 @@ io::Mesh extruded(const Section& section, const std::vector<double>& levels, dou
 std::string thickness_of(const std::vector<double>& levels) {
   const std::size_t layers = levels.size() - 1;
   const double first = levels[1] - levels[0], last = levels[layers] - levels[layers - 1];
-  char text[100];
-  if (last < 1.000001 * first) {
-    std::snprintf(text, sizeof text, "%.6g m", levels.back() / static_cast<double>(layers));
-  } else {
-    std::snprintf(text, sizeof text, "%.6g to %.6g m", first, last);
-  }
-  return text;
+  if (last < 1.000001 * first) return text_of(levels.back() / static_cast<double>(layers), " m");
+  return text_of(first, " to ", last, " m");
 }
 
 const char* shape_name(const Body& body) {
@@ -108,7 +104,7 @@ const char* shape_name(const Body& body) {
 }
 
 std::string summary_of(const Body& body, const Section& section, const std::vector<double>& levels) {
-  const int layers = static_cast<int>(levels.size()) - 1;
+  const std::size_t layers = levels.size() - 1;
   double area = 0;
   double smallest = INFINITY;
   for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
@@ -118,22 +114,17 @@ std::string summary_of(const Body& body, const Section& section, const std::vect
   const double taper = taper_of(body);
   area *= mean_square(1, taper);
   smallest *= std::min(1.0, taper * taper);
-  const double cells = static_cast<double>(section.cells.size());
-  const double volume = area * height(body);
-  const double exact = exact_volume(body);
-  char text[500];
-  std::snprintf(text, sizeof text,
-                "%s: %s, %s: %.0f points = %.0f in a layer x %d layers\n"
-                "  spacing along z %s, root of the mean area of a cell %.6g m, of the smallest %.6g m (asked for %g)\n"
-                "  volume %.6g m^3, exact %.6g m^3 (%+.3f %%)\n",
-                body.name.c_str(), shape_name(body),
-                body.method == Body::Method::fitted       ? "fitted"
-                : body.shape == Body::Shape::box          ? "lattice"
-                : body.centered == Body::Centered::corner ? "lattice, axis through a corner"
-                                                          : "lattice, axis through a point",
-                cells * layers, cells, layers, thickness_of(levels).c_str(), std::sqrt(area / cells),
-                std::sqrt(smallest), body.spacing, volume, exact, 100 * (volume / exact - 1));
-  return text;
+  const std::size_t cells = section.cells.size();
+  const double mean = area / static_cast<double>(cells), volume = area * height(body), exact = exact_volume(body);
+  const char* const method = body.method == Body::Method::fitted       ? "fitted"
+                             : body.shape == Body::Shape::box          ? "lattice"
+                             : body.centered == Body::Centered::corner ? "lattice, axis through a corner"
+                                                                       : "lattice, axis through a point";
+  return text_of(body.name, ": ", shape_name(body), ", ", method, ": ", cells * layers, " points = ", cells,
+                 " in a layer x ", layers, " layers\n  spacing along z ", thickness_of(levels),
+                 ", root of the mean area of a cell ", std::sqrt(mean), " m, of the smallest ", std::sqrt(smallest),
+                 " m (asked for ", body.spacing, ")\n  volume ", volume, " m^3, exact ", exact, " m^3 (", std::fixed,
+                 std::showpos, std::setprecision(3), 100 * (volume / exact - 1), " %)\n");
 }
 
 // A horizon in parts of the root of a cell's volume, such as 3.015, loses the neighbors at whole spacings along a
@@ -143,13 +134,8 @@ std::string note_on_stretch(const Body& body) {
   const Vector h = grid_of(body.size, body.spacing, 1).spacing();
   const double stretch = h.maxCoeff() / std::cbrt(h.prod());
   if (stretch < 1.005) return "";
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "  note: cells of %.6g %.6g %.6g m: a Horizon Factor of 3.015 counts the root of their volume, and loses "
-      "neighbors at 3 spacings\n",
-      h[0], h[1], h[2]);
-  return text;
+  return text_of("  note: cells of ", h[0], " ", h[1], " ", h[2],
+                 " m: a Horizon Factor of 3.015 counts the root of their volume, and loses neighbors at 3 spacings\n");
 }
 
 // Bodies have distinct names, but blocks and sets of a file may have the names of others.
@@ -201,10 +187,9 @@ io::Mesh gathered_body(const Body& body, std::string& summary) {
   const Gathering gathering{body.cells, body.smallest_cell};
   const Cells cells = gathered(voxels, {}, grid, gathering);
   const Vector h = cells.grid.spacing();
-  char text[200];
-  std::snprintf(text, sizeof text, "%s: %s in cells of %.6g %.6g %.6g m (asked for %g), exact volume %.6g m^3\n",
-                body.name.c_str(), shape_name(body), h[0], h[1], h[2], body.spacing, exact_volume(body));
-  summary = text + summary_of(cells, gathering);
+  summary = text_of(body.name, ": ", shape_name(body), " in cells of ", h[0], " ", h[1], " ", h[2], " m (asked for ",
+                    body.spacing, "), exact volume ", exact_volume(body), " m^3\n") +
+            summary_of(cells, gathering);
   io::Mesh mesh = cell_mesh(cells);
   if (body.shape == Body::Shape::cylinder) shift(mesh, {-grid.size[0] / 2, -grid.size[1] / 2, 0});
   return mesh;
