@@ -13,18 +13,16 @@ namespace strut::compare {
 
 namespace {
 
-double number(const std::string& word) {
-  const auto found = to_real(word);
-  if (!found) throw Error("'" + word + "' is not a number");
-  return *found;
-}
-
 void read_row(const std::string& line, std::vector<Variable>& columns) {
   const std::vector<std::string> words = to_cells(line);
   if (words.size() != columns.size()) {
     throw Error(std::to_string(words.size()) + " values for " + std::to_string(columns.size()) + " columns");
   }
-  for (std::size_t c = 0; c < words.size(); ++c) columns[c].frames[0].push_back(number(words[c]));
+  for (std::size_t c = 0; c < words.size(); ++c) {
+    const auto number = to_real(words[c]);
+    if (!number) throw Error("'" + words[c] + "' is not a number");
+    columns[c].frames[0].push_back(*number);
+  }
 }
 
 std::vector<Variable> columns_of(const std::string& header, const std::filesystem::path& path) {
