@@ -179,7 +179,7 @@ class Converter {
       body.three_cornered = choice<int>(key, {"round", "three-cornered"}, 0) == 1;
     }
     if (key == "periodic") take_axes(entry, body);
-    if (key == "lattice") take_lattice(entry, body);
+    if (key == "lattice") body.lattice = lattice_names()[choice<int>(key, lattice_names(), 0)];
     if (key == "count") take_count(entry, body);
   }
 
@@ -191,14 +191,6 @@ class Converter {
       }
       body.periodic[word[0] - 'x'] = true;
     }
-  }
-
-  void take_lattice(const Entry& entry, Body& body) {
-    const std::vector<std::string>& names = lattice_names();
-    body.lattice = entry.value;
-    if (std::find(names.begin(), names.end(), entry.value) != names.end()) return;
-    fail(entry,
-         "lattice is '" + entry.value + "', expected " + joined(names, " or ") + did_you_mean(entry.value, names));
   }
 
   // Whole cells along each axis; one number holds for all three.
