@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <set>
 #include <variant>
 
@@ -13,7 +14,6 @@
 #include "base/files.hpp"
 #include "base/numbers.hpp"
 #include "mesh/lattices.hpp"
-#include "mesh/recipe_lines.hpp"
 
 namespace strut::mesh {
 
@@ -98,6 +98,100 @@ std::string name_of(Kind kind) {
   constexpr const char* names[] = {"lattice cylinder", "fitted cylinder", "cone", "box", "foam", "lattice", "file"};
   return names[std::countr_zero<unsigned>(kind)];
 }
+
+struct Entry {
+  std::string value;
+  int line = 0;
+};
+
+// The entries of one body.
+struct Entries {
+  int line;  // where it begins
+  std::map<std::string, Entry> by_key = {};
+
+  const Entry* find(const std::string& key) const {
+    const auto place = by_key.find(key);
+    return place == by_key.end() ? nullptr : &place->second;
+  }
+};
+
+// The entries of each body, with those that stand before the first '[body]' as defaults. Adds a problem, which begins
+// with the number of its line, for each line that is not a key with a value. Throws Error of one line if this is
+// another kind of file: most of its first lines are no lines of a recipe.
+class Lines {
+ public:
+  Lines(const std::filesystem::path& path, std::vector<std::string>& problems) : path_(path), problems_(problems) {}
+
+  std::vector<Entries> read() {
+    if (const std::string why = unreadable(path_); !why.empty()) throw Error(why);
+    std::ifstream stream(path_);
+    std::string text;
+    int lines = 0;
+    for (int number = 1; std::getline(stream, text); ++number) {
+      if (number == 1) text = without_mark(text);
+      const std::string content(trimmed(std::string_view(text).substr(0, text.find('#'))));
+      if (content.empty()) continue;
+      if (content.find('\0') != std::string::npos)
+        throw Error(path_.string() + ": it is no recipe but holds other than text");
+      read_line(content, number);
+      if (++lines == looked_at || stream.peek() == EOF) check_kind(lines);
+    }
+    if (bodies_.empty()) return {common_};
+    for (Entries& body : bodies_) body.by_key.insert(common_.by_key.begin(), common_.by_key.end());
+    return bodies_;
+  }
+
+ private:
+  static constexpr int looked_at = 100;
+
+  void check_kind(int lines) const {
+    if (lines > looked_at || foreign_ <= 2 || foreign_ < lines / 2) return;
+    throw Error(path_.string() + ": it is no recipe: expected lines 'key = value' or '[body]', found '" +
+                first_foreign_ + "'" +
+                " and others; meshes of other programs are for tools/tetrahedra, images for tools/voxels");
+  }
+
+  // A line that cannot be of a recipe.
+  void take_foreign(const std::string& content) {
+    if (foreign_++ > 0) return;
+    for (const char c : content.substr(0, 60)) first_foreign_ += c >= ' ' && c <= '~' ? c : '?';
+  }
+
+  void read_line(const std::string& content, int number) {
+    if (content == "[body]") {
+      bodies_.push_back({number});
+      return;
+    }
+    const auto sign = content.find('=');
+    if (sign == std::string::npos) {
+      take_foreign(content);
+      return fail(number, "expected 'key = value' or '[body]', found '" + content + "'");
+    }
+    const std::string key(trimmed(content.substr(0, sign))), value(trimmed(content.substr(sign + 1)));
+    if (std::ranges::find(keys_, key) == keys_.end()) {
+      if (key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_ ") != std::string::npos) take_foreign(content);
+      return fail(number, "unknown key '" + key + "'" + did_you_mean(key, keys_) + "; keys are " + joined(keys_));
+    }
+    Entries& body = bodies_.empty() ? common_ : bodies_.back();
+    if (value.empty()) return fail(number, "key '" + key + "' has no value");
+    if (const Entry* first = body.find(key)) {
+      return fail(number, "key '" + key + "' again (first in line " + std::to_string(first->line) + ")");
+    }
+    body.by_key[key] = {value, number};
+  }
+
+  void fail(int line, const std::string& problem) {
+    problems_.push_back("line " + std::to_string(line) + ": " + problem);
+  }
+
+  const std::filesystem::path& path_;
+  const std::vector<std::string> keys_ = names_of_keys();
+  std::vector<std::string>& problems_;
+  int foreign_ = 0;
+  std::string first_foreign_;
+  Entries common_{1};
+  std::vector<Entries> bodies_;
+};
 
 // Converts entries to a Body.
 class Converter {
@@ -274,24 +368,13 @@ class Converter {
   std::vector<std::string>& problems_;
 };
 
-std::vector<Entries> lines_of(const std::filesystem::path& path, std::istream& file,
-                              std::vector<std::string>& problems) {
-  try {
-    return read_lines(file, names_of_keys(), problems);
-  } catch (const Error& error) {
-    throw Error(path.string() + ": " + error.what());
-  }
-}
-
 }  // namespace
 
 std::vector<Body> read_recipe(const std::filesystem::path& path) {
-  if (const std::string why = unreadable(path); !why.empty()) throw Error(why);
-  std::ifstream file(path);
   std::vector<std::string> problems;
   std::vector<Body> bodies;
   std::set<std::string> names;
-  for (const Entries& entries : lines_of(path, file, problems)) {
+  for (const Entries& entries : Lines(path, problems).read()) {
     bodies.push_back(Converter(entries, path.parent_path(), problems).convert());
     if (!names.insert(bodies.back().name).second)
       problems.push_back("two bodies are called '" + bodies.back().name + "'");
