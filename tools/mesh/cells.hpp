@@ -25,7 +25,7 @@ struct Cells {
   std::size_t small = 0;        // kept below the limit: only they connect their neighbors
   std::size_t dropped = 0;      // pieces that were too small and had no neighbor
   double dropped_volume = 0;    // m³
-  std::size_t cut = 0;          // flat cells (mend_flat_cells) that were cut into two layers
+  std::size_t cut = 0;          // flat cells (FlatCells) that were cut into two layers
   std::size_t flat_merged = 0;  // flat cells that became part of a neighbor
   std::size_t flat = 0;         // still there: a run by quadratic correspondence drops them
   double flat_volume = 0;       // m³, of these
@@ -37,7 +37,7 @@ struct Cells {
 // limit is merged into one that has a common face with it: among those for which all connected pieces are at touching
 // positions, the one with the smallest joint moments. A merged piece is at the position of the larger one or, if only
 // that keeps its neighbors, of the smaller one. Volume and first and second moments are those of the voxels, without
-// dropped ones. Cells whose neighbors are in one plane are cut into two layers, or merged (mend_flat_cells), unless the
+// dropped ones. Cells whose neighbors are in one plane are cut into two layers, or merged (FlatCells), unless the
 // limit is 0.
 Cells gathered(const std::vector<int>& voxels, const std::vector<double>& fills, const VoxelGrid& grid,
                const Gathering& gathering);
