@@ -19,7 +19,7 @@ def of_blocks(path, block, what):
             names = names_in(file, "eb_names") or [""] * len(file.dimensions["num_el_blk"])
             found = [what(file, n) for n, name in enumerate(names, 1)
                      if block in (None, name) and f"connect{n}" in file.variables and len(file[f"connect{n}"])]
-    except (OSError, KeyError, AttributeError):
+    except (OSError, IndexError, KeyError, AttributeError):
         return None
     return None if not found or any(one is None for one in found) else found
 

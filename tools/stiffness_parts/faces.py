@@ -14,7 +14,7 @@ class Sample:
     def __init__(self, mesh):
         parts, box = extent.of_blocks(mesh, None, extent.cells_of), extent.box_in(mesh, None)
         if not parts:
-            fail(f"{mesh} has elements without an extent, or none: spheres do not tell the faces of a box")
+            fail(f"{mesh}: expected hexahedra or tetrahedra, which tell the faces of a box; it has none, also others, or is damaged")
         edges, self.places, self.halves = (np.concatenate(found) for found in zip(*parts))
         self.edge, (self.low, self.high) = edges.min(axis=0), box
         with opened(mesh) as file:
