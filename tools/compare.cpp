@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <iomanip>
 #include <limits>
 #include <map>
 #include <string>
@@ -13,11 +14,13 @@
 
 #include "base/errors.hpp"
 #include "base/numbers.hpp"
+#include "base/text.hpp"
 #include "compare/series.hpp"
 
 namespace {
 
 using namespace strut::compare;
+using strut::text_of;
 
 // Values may differ by the larger of `absolute` and `relative` times the largest magnitude, in either result, of that
 // quantity over the frame. The components of a vector or tensor (names that end in X, Y, Z, XX, XY, …) are one
@@ -61,25 +64,23 @@ std::string quantity(const std::string& name) {
   return name.substr(0, last + 1);
 }
 
-// The largest magnitude of each quantity in each frame.
-class Scales {
- public:
-  void add(const Series& series) {
-    for (const Variable& variable : series.variables) {
-      std::vector<double>& scale = scales_[{variable.place, quantity(variable.name)}];
-      if (scale.size() < variable.frames.size()) scale.resize(variable.frames.size(), 0.0);
+using Scales =
+    std::map<std::pair<std::string, std::string>, std::vector<double>>;  // by place and quantity, in each frame
+
+// The largest magnitudes in both results.
+Scales scales_of(const Series& a, const Series& b) {
+  Scales scales;
+  for (const Series* series : {&a, &b}) {
+    for (const Variable& variable : series->variables) {
+      std::vector<double>& scale = scales[{variable.place, quantity(variable.name)}];
+      scale.resize(std::max(scale.size(), variable.frames.size()), 0.0);
       for (std::size_t f = 0; f < variable.frames.size(); ++f) {
         scale[f] = std::max(scale[f], magnitude(variable.frames[f]));
       }
     }
   }
-  const std::vector<double>& of(const Variable& variable) const {
-    return scales_.at({variable.place, quantity(variable.name)});
-  }
-
- private:
-  std::map<std::pair<std::string, std::string>, std::vector<double>> scales_;
-};
+  return scales;
+}
 
 const Variable* find(const Series& series, const Variable& like) {
   const auto same = [&](const Variable& v) { return v.name == like.name && v.place == like.place; };
@@ -115,9 +116,7 @@ std::string time_problem(const Series& a, const Series& b, const Tolerance& tole
   for (std::size_t f = 0; f < frames; ++f) {
     const double gap = distance(a.times[f], b.times[f]);
     if (gap <= std::max(tolerance.absolute, tolerance.relative * std::abs(a.times[f]))) continue;
-    char text[120];
-    std::snprintf(text, sizeof text, "frame %zu is at t = %.17g s and %.17g s", f + 1, a.times[f], b.times[f]);
-    return text;
+    return text_of("frame ", f + 1, " is at t = ", std::setprecision(17), a.times[f], " s and ", b.times[f], " s");
   }
   return "";
 }
@@ -135,25 +134,23 @@ std::string place_problem(const Series& a, const Series& b, const Tolerance& tol
     double gap = 0;
     for (int c = 0; c < 3; ++c) gap = std::max(gap, distance(a.places[c][i], b.places[c][i]));
     if (gap <= std::max(tolerance.absolute, tolerance.relative * extent)) continue;
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  "node %zu is at (%.9g, %.9g, %.9g) m and at (%.9g, %.9g, %.9g) m before anything moves", i + 1,
-                  a.places[0][i], a.places[1][i], a.places[2][i], b.places[0][i], b.places[1][i], b.places[2][i]);
-    return text;
+    const auto place = [i](const Series& one) {
+      return text_of(std::setprecision(9), "(", one.places[0][i], ", ", one.places[1][i], ", ", one.places[2][i],
+                     ") m");
+    };
+    return text_of("node ", i + 1, " is at ", place(a), " and at ", place(b), " before anything moves");
   }
   return "";
 }
 
 // The differences of all common variables over the common frames. NaN equals NaN, and differs infinitely from a number.
 std::vector<Difference> differences(const Series& a, const Series& b, const Tolerance& tolerance) {
-  Scales scales;
-  scales.add(a);
-  scales.add(b);
+  const Scales scales = scales_of(a, b);
   std::vector<Difference> all;
   for (const Variable& variable : a.variables) {
     const Variable* other = find(b, variable);
     if (other == nullptr || places(variable) != places(*other)) continue;
-    all.push_back(difference(variable, *other, scales.of(variable), tolerance));
+    all.push_back(difference(variable, *other, scales.at({variable.place, quantity(variable.name)}), tolerance));
   }
   return all;
 }
@@ -174,8 +171,7 @@ std::string block_problem(const Series& a, const Series& b) {
 std::vector<std::string> mismatches(const Series& a, const Series& b, const Tolerance& tolerance) {
   std::vector<std::string> problems;
   if (a.times.size() != b.times.size()) {
-    problems.push_back("the first has " + std::to_string(a.times.size()) + " frames, the second " +
-                       std::to_string(b.times.size()));
+    problems.push_back(text_of("the first has ", a.times.size(), " frames, the second ", b.times.size()));
   }
   const std::string times = time_problem(a, b, tolerance);
   if (!times.empty()) problems.push_back(times);
@@ -186,8 +182,8 @@ std::vector<std::string> mismatches(const Series& a, const Series& b, const Tole
     if (other == nullptr) {
       problems.push_back("only the first has the " + variable.place + " variable '" + variable.name + "'");
     } else if (places(variable) != places(*other)) {
-      problems.push_back("'" + variable.name + "' has " + std::to_string(places(variable)) + " " + variable.place +
-                         "s and " + std::to_string(places(*other)));
+      problems.push_back(
+          text_of("'", variable.name, "' has ", places(variable), " ", variable.place, "s and ", places(*other)));
     }
   }
   for (const Variable& variable : b.variables) {
@@ -236,9 +232,7 @@ std::string where(const Difference& d, const std::vector<double>& times) {
   if (d.absolute == 0) return "";
   const std::string place = d.place + " " + std::to_string(d.index + 1);
   if (d.frame >= times.size()) return place;
-  char time[40];
-  std::snprintf(time, sizeof time, "t = %.6g s, ", times[d.frame]);
-  return time + place;
+  return text_of("t = ", times[d.frame], " s, ", place);
 }
 
 // Prints a table; returns true if all differences are within the tolerance.

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -20,6 +21,7 @@
 #include "base/errors.hpp"
 #include "base/numbers.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/text.hpp"
 #include "deck/deck.hpp"
 #include "point/path.hpp"
 #include "point_driver.hpp"
@@ -50,25 +52,12 @@ double number_of(const std::string& option, const std::string& word) {
   return *number;
 }
 
-// The words of a command line, consumed from the front.
-class Words {
- public:
-  explicit Words(const std::vector<std::string>& words) : words_(words) {}
-  bool empty() const { return next_ == words_.size(); }
-  const std::string& take() { return words_[next_++]; }
-  const std::string& take_for(const std::string& option, const std::string& what) {
-    if (empty()) throw Error(option + " needs " + what);
-    return take();
-  }
+// Takes the next word of the command line, which an option needs.
+using Take = std::function<const std::string&(const std::string& what)>;
 
- private:
-  const std::vector<std::string>& words_;
-  std::size_t next_ = 0;
-};
-
-Path uniaxial_path(const std::string& option, Words& words) {
-  const double rate = number_of(option, words.take_for(option, "a rate (1/s) and a final strain"));
-  const double final = number_of(option, words.take_for(option, "a final strain after the rate"));
+Path uniaxial_path(const std::string& option, const Take& take) {
+  const double rate = number_of(option, take("a rate (1/s) and a final strain"));
+  const double final = number_of(option, take("a final strain after the rate"));
   if (!(rate > 0)) throw Error(option + ": expected a rate > 0 (1/s); compression is a negative final strain");
   if (final == 0) throw Error(option + ": the final strain is 0, expected another (negative: compression)");
   Path path = uniaxial(option == "--uniaxial-stress" ? lateral_stress : all_strain, rate, final);
@@ -76,16 +65,16 @@ Path uniaxial_path(const std::string& option, Words& words) {
   return path;
 }
 
-Path path_from_file(const std::string& option, Words& words) {
-  const std::string kind = words.take_for(option, "strain or stress, and a file");
+Path path_from_file(const std::string& option, const Take& take) {
+  const std::string kind = take("strain or stress, and a file");
   if (kind != "strain" && kind != "stress") {
     throw Error(option + ": '" + kind + "', expected strain or stress" + did_you_mean(kind, {"strain", "stress"}));
   }
-  return read_path(words.take_for(option, "a file after " + kind), kind == "stress" ? all_stress : all_strain);
+  return read_path(take("a file after " + kind), kind == "stress" ? all_stress : all_strain);
 }
 
-int steps_of(const std::string& option, Words& words) {
-  const double steps = number_of(option, words.take_for(option, "a number of steps"));
+int steps_of(const std::string& option, const Take& take) {
+  const double steps = number_of(option, take("a number of steps"));
   if (!(steps >= 1 && steps <= 1e9 && steps == std::floor(steps))) {
     throw Error(option + ": expected a whole number from 1");
   }
@@ -93,7 +82,7 @@ int steps_of(const std::string& option, Words& words) {
 }
 
 // Throws Error with a description of the problem.
-Request parse(const std::vector<std::string>& all) {
+Request parse(const std::vector<std::string>& words) {
   const std::vector<std::string> options{"--material", "--uniaxial-strain", "--uniaxial-stress", "--path", "--steps"};
   Request request;
   std::optional<int> steps;
@@ -101,16 +90,20 @@ Request parse(const std::vector<std::string>& all) {
     if (!request.path.rows.empty()) throw Error("more than one path is given\n" + std::string(usage));
     request.path = path;
   };
-  for (Words words(all); !words.empty();) {
-    const std::string word = words.take();
+  for (std::size_t next = 0; next < words.size();) {
+    const std::string& word = words[next++];
+    const Take take = [&](const std::string& what) -> const std::string& {
+      if (next == words.size()) throw Error(word + " needs " + what);
+      return words[next++];
+    };
     if (word == "--material") {
-      request.material = words.take_for(word, "a name");
+      request.material = take("a name");
     } else if (word == "--uniaxial-strain" || word == "--uniaxial-stress") {
-      set_path(uniaxial_path(word, words));
+      set_path(uniaxial_path(word, take));
     } else if (word == "--path") {
-      set_path(path_from_file(word, words));
+      set_path(path_from_file(word, take));
     } else if (word == "--steps") {
-      steps = steps_of(word, words);
+      steps = steps_of(word, take);
     } else if (word.starts_with("--")) {
       throw Error("unknown option " + word + did_you_mean(word, options));
     } else if (request.deck.empty()) {
@@ -194,12 +187,8 @@ void print(const Driver<L>& point) {
 }
 
 std::string stuck(double time, std::size_t row) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "no step found after t = %.6g s, towards row %zu: the law does not converge, or does not carry the "
-                "prescribed stress",
-                time, row);
-  return text;
+  return text_of("no step found after t = ", time, " s, towards row ", row,
+                 ": the law does not converge, or does not carry the prescribed stress");
 }
 
 template <materials::Law L>

@@ -8,7 +8,7 @@ sys.path.insert(0, str(ROOT / "tools/shared"))
 from exodus import field_in  # noqa: E402
 from strut_tools import history_of, install_missing, percent, run_deck, seconds_of_phase  # noqa: E402
 
-install_missing({"numpy": "python3-numpy", "netCDF4": "python3-netcdf4", "matplotlib": "python3-matplotlib"})
+install_missing("numpy", "netCDF4", "matplotlib")
 import netCDF4  # noqa: E402
 import numpy as np  # noqa: E402
 

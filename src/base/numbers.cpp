@@ -76,6 +76,13 @@ std::vector<std::string> to_words(std::string_view text) {
   return words;
 }
 
+std::vector<std::string> to_cells(std::string_view text) {
+  std::istringstream stream{std::string(text) + ','};  // with a comma behind each, the last one, too
+  std::vector<std::string> cells;
+  for (std::string cell; std::getline(stream, cell, ',');) cells.emplace_back(trimmed(cell));
+  return cells;
+}
+
 std::string to_text(double value) {
   char buffer[32];
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};

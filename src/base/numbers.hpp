@@ -22,6 +22,7 @@ std::optional<bool> to_boolean(std::string_view text);
 std::optional<std::vector<double>> to_reals(std::string_view text);
 
 std::vector<std::string> to_words(std::string_view text);  // separated by blanks
+std::vector<std::string> to_cells(std::string_view text);  // by commas, without blanks around them
 
 // The shortest text that reads back as `value`.
 std::string to_text(double value);

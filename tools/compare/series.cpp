@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <string_view>
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
@@ -14,33 +13,21 @@ namespace strut::compare {
 
 namespace {
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> words;
-  std::size_t begin = 0;
-  for (std::size_t comma; (comma = line.find(',', begin)) != std::string::npos; begin = comma + 1) {
-    words.emplace_back(trimmed(std::string_view(line).substr(begin, comma - begin)));
-  }
-  words.emplace_back(trimmed(std::string_view(line).substr(begin)));
-  return words;
-}
-
-double number(const std::string& word) {
-  const auto found = to_real(word);
-  if (!found) throw Error("'" + word + "' is not a number");
-  return *found;
-}
-
 void read_row(const std::string& line, std::vector<Variable>& columns) {
-  const std::vector<std::string> words = split(line);
+  const std::vector<std::string> words = to_cells(line);
   if (words.size() != columns.size()) {
     throw Error(std::to_string(words.size()) + " values for " + std::to_string(columns.size()) + " columns");
   }
-  for (std::size_t c = 0; c < words.size(); ++c) columns[c].frames[0].push_back(number(words[c]));
+  for (std::size_t c = 0; c < words.size(); ++c) {
+    const auto number = to_real(words[c]);
+    if (!number) throw Error("'" + words[c] + "' is not a number");
+    columns[c].frames[0].push_back(*number);
+  }
 }
 
 std::vector<Variable> columns_of(const std::string& header, const std::filesystem::path& path) {
   std::vector<Variable> columns;
-  for (const std::string& name : split(header)) {
+  for (const std::string& name : to_cells(header)) {
     if (std::ranges::find(columns, name, &Variable::name) != columns.end()) {
       throw Error(path.string() + ": two columns have the name '" + name + "'; expected a name for each column");
     }

@@ -10,13 +10,16 @@ NUMBERS = ["centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "
 
 
 def of_blocks(path, block, what):
-    """`what` of each block of this name, or of all; None if the mesh does not contain it."""
+    """`what` of each block of this name that has elements, or of all, in the order of their numbers; None if the mesh does not
+    contain it."""
     if not path or not os.path.isfile(path):
         return None
     try:
         with opened(path) as file:
-            found = [what(file, n) for n, name in enumerate(names_in(file, "eb_names"), 1) if block in (None, name)]
-    except (OSError, KeyError, AttributeError):
+            names = names_in(file, "eb_names") or [""] * len(file.dimensions["num_el_blk"])
+            found = [what(file, n) for n, name in enumerate(names, 1)
+                     if block in (None, name) and f"connect{n}" in file.variables and len(file[f"connect{n}"])]
+    except (OSError, IndexError, KeyError, AttributeError):
         return None
     return None if not found or any(one is None for one in found) else found
 

@@ -41,8 +41,7 @@ def figure(path, title, times, strain, names, stresses, found, front):
     for panel in panels:
         panel.grid(alpha=0.3)
     drawing.suptitle(title, fontsize=12)
-    save_picture(drawing, path, dpi=110)
-    plt.close(drawing)
+    save_picture(drawing, path)
 
 
 def draw_curve(axes, strain, stress, found, factor):

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <sstream>
 
 #include "base/errors.hpp"
+#include "base/numbers.hpp"
+#include "base/text.hpp"
 #include "mesh/body.hpp"
 #include "mesh/cells.hpp"
 #include "mesh/foam.hpp"
@@ -63,7 +64,7 @@ class ArraysReader {
                    static_cast<std::streamsize>(buffer.size() * sizeof(Number)));
       if (!stream_) {
         const std::int64_t got = done + stream_.gcount() / static_cast<std::int64_t>(sizeof(Number));
-        fail_here(": it ends after " + std::to_string(got) + " of " + std::to_string(numbers) + " numbers");
+        fail_here(text_of(": it ends after ", got, " of ", numbers, " numbers"));
       }
       for (const Number number : buffer) take(number);
     }
@@ -75,15 +76,11 @@ class ArraysReader {
     Number value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error == std::errc() && end == word.data() + word.size() && value >= low && value <= high) return value;
-    std::ostringstream range;
-    range << low << " to " << high;
-    fail_here(": " + what + " is '" + word + "', expected " + range.str());
+    fail_here(text_of(": ", what, " is '", word, "', expected ", low, " to ", high));
   }
 
   std::vector<std::string> words_of(const std::string& header) const {
-    std::istringstream stream(header);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) words.push_back(word);
+    const std::vector<std::string> words = to_words(header);
     if ((words.size() == 9 || words.size() == 10) && words[0] == "voxels") return words;
     std::string shown = header.substr(0, 60);
     std::ranges::replace_if(
@@ -133,8 +130,7 @@ class ArraysReader {
     std::vector<double> fills;
     each<double>(kind == "grey" ? count : 0, [&](double fill) {
       if (!(fill > 0 && fill <= 1)) {
-        fail_here(", voxel " + std::to_string(fills.size()) + ": a part of " + std::to_string(fill) +
-                  " is solid, expected one > 0 to 1");
+        fail_here(text_of(", voxel ", fills.size(), ": a part of ", fill, " is solid, expected one > 0 to 1"));
       }
       fills.push_back(fill);
     });

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+#include <iomanip>
 #include <numbers>
+#include <numeric>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "io/exodus/elements.hpp"
 #include "mesh/cells.hpp"
 #include "mesh/foam.hpp"
@@ -58,40 +60,13 @@ Section section_of(const Body& body, double layer) {
   return lattice_disc(body.radius, layer, body.centered);  // cubes: the fitted spacing in the plane, too
 }
 
-// An extruded body: a section, the heights of its layers' faces in the body's own coordinates, and the ratio of the
-// section's width at the last to that at the first.
-struct Extrusion {
-  const Section& section;
-  const std::vector<double>& levels;
-  double taper;
-  int layers = static_cast<int>(levels.size()) - 1;
-
-  double width(int level) const { return 1 + (taper - 1) * (levels[level] / levels.back()); }
-  io::Mesh hexahedra() const;
-  static std::vector<int> repeated(const std::vector<int>& base, int stride, int times);
-};
-
-// The numbers of `base` in each of `times` layers with `stride` numbers each.
-std::vector<int> Extrusion::repeated(const std::vector<int>& base, int stride, int times) {
-  std::vector<int> numbers;
-  for (int k = 0; k < times; ++k) {
-    for (const int number : base) numbers.push_back(number + k * stride);
-  }
-  return numbers;
-}
-
-std::vector<int> range(int begin, int end) {
-  std::vector<int> numbers;
-  for (int i = begin; i < end; ++i) numbers.push_back(i);
-  return numbers;
-}
-
-io::Mesh Extrusion::hexahedra() const {
+// A section extruded between faces at these heights; `taper`: its width at the last over that at the first.
+io::Mesh extruded(const Section& section, const std::vector<double>& levels, double taper) {
   io::Mesh mesh;
-  const int stride = static_cast<int>(section.nodes.size());
-  for (int k = 0; k <= layers; ++k) {
-    const double w = width(k);
-    for (const Point& p : section.nodes) mesh.nodes.emplace_back(w * p.x(), w * p.y(), levels[k]);
+  const int stride = static_cast<int>(section.nodes.size()), layers = static_cast<int>(levels.size()) - 1;
+  for (const double level : levels) {
+    const double w = 1 + (taper - 1) * (level / levels.back());
+    for (const Point& p : section.nodes) mesh.nodes.emplace_back(w * p.x(), w * p.y(), level);
   }
   io::Mesh::Block& block = mesh.blocks.emplace_back();
   block.type = "HEX8";
@@ -102,21 +77,25 @@ io::Mesh Extrusion::hexahedra() const {
       }
     }
   }
-  mesh.node_sets = {{"zmin", range(0, stride)}, {"zmax", range(layers * stride, (layers + 1) * stride)}};
-  for (const auto& [name, nodes] : section.sides) mesh.node_sets.push_back({name, repeated(nodes, stride, layers + 1)});
+  const auto at_levels = [&](const std::vector<int>& nodes, int first, int last) {
+    std::vector<int> numbers;
+    for (int k = first; k <= last; ++k) {
+      for (const int node : nodes) numbers.push_back(node + k * stride);
+    }
+    return numbers;
+  };
+  std::vector<int> all(stride);
+  std::iota(all.begin(), all.end(), 0);
+  mesh.node_sets = {{"zmin", at_levels(all, 0, 0)}, {"zmax", at_levels(all, layers, layers)}};
+  for (const auto& [name, nodes] : section.sides) mesh.node_sets.push_back({name, at_levels(nodes, 0, layers)});
   return mesh;
 }
 
 std::string thickness_of(const std::vector<double>& levels) {
   const std::size_t layers = levels.size() - 1;
   const double first = levels[1] - levels[0], last = levels[layers] - levels[layers - 1];
-  char text[100];
-  if (last < 1.000001 * first) {
-    std::snprintf(text, sizeof text, "%.6g m", levels.back() / static_cast<double>(layers));
-  } else {
-    std::snprintf(text, sizeof text, "%.6g to %.6g m", first, last);
-  }
-  return text;
+  if (last < 1.000001 * first) return text_of(levels.back() / static_cast<double>(layers), " m");
+  return text_of(first, " to ", last, " m");
 }
 
 const char* shape_name(const Body& body) {
@@ -125,7 +104,7 @@ const char* shape_name(const Body& body) {
 }
 
 std::string summary_of(const Body& body, const Section& section, const std::vector<double>& levels) {
-  const int layers = static_cast<int>(levels.size()) - 1;
+  const std::size_t layers = levels.size() - 1;
   double area = 0;
   double smallest = INFINITY;
   for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
@@ -135,22 +114,17 @@ std::string summary_of(const Body& body, const Section& section, const std::vect
   const double taper = taper_of(body);
   area *= mean_square(1, taper);
   smallest *= std::min(1.0, taper * taper);
-  const double cells = static_cast<double>(section.cells.size());
-  const double volume = area * height(body);
-  const double exact = exact_volume(body);
-  char text[500];
-  std::snprintf(text, sizeof text,
-                "%s: %s, %s: %.0f points = %.0f in a layer x %d layers\n"
-                "  spacing along z %s, root of the mean area of a cell %.6g m, of the smallest %.6g m (asked for %g)\n"
-                "  volume %.6g m^3, exact %.6g m^3 (%+.3f %%)\n",
-                body.name.c_str(), shape_name(body),
-                body.method == Body::Method::fitted       ? "fitted"
-                : body.shape == Body::Shape::box          ? "lattice"
-                : body.centered == Body::Centered::corner ? "lattice, axis through a corner"
-                                                          : "lattice, axis through a point",
-                cells * layers, cells, layers, thickness_of(levels).c_str(), std::sqrt(area / cells),
-                std::sqrt(smallest), body.spacing, volume, exact, 100 * (volume / exact - 1));
-  return text;
+  const std::size_t cells = section.cells.size();
+  const double mean = area / static_cast<double>(cells), volume = area * height(body), exact = exact_volume(body);
+  const char* const method = body.method == Body::Method::fitted       ? "fitted"
+                             : body.shape == Body::Shape::box          ? "lattice"
+                             : body.centered == Body::Centered::corner ? "lattice, axis through a corner"
+                                                                       : "lattice, axis through a point";
+  return text_of(body.name, ": ", shape_name(body), ", ", method, ": ", cells * layers, " points = ", cells,
+                 " in a layer x ", layers, " layers\n  spacing along z ", thickness_of(levels),
+                 ", root of the mean area of a cell ", std::sqrt(mean), " m, of the smallest ", std::sqrt(smallest),
+                 " m (asked for ", body.spacing, ")\n  volume ", volume, " m^3, exact ", exact, " m^3 (", std::fixed,
+                 std::showpos, std::setprecision(3), 100 * (volume / exact - 1), " %)\n");
 }
 
 // A horizon in parts of the root of a cell's volume, such as 3.015, loses the neighbors at whole spacings along a
@@ -160,27 +134,16 @@ std::string note_on_stretch(const Body& body) {
   const Vector h = grid_of(body.size, body.spacing, 1).spacing();
   const double stretch = h.maxCoeff() / std::cbrt(h.prod());
   if (stretch < 1.005) return "";
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "  note: cells of %.6g %.6g %.6g m: a Horizon Factor of 3.015 counts the root of their volume, and loses "
-      "neighbors at 3 spacings\n",
-      h[0], h[1], h[2]);
-  return text;
-}
-
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  for (const Item& item : items) names.push_back(item.name);
-  return names;
+  return text_of("  note: cells of ", h[0], " ", h[1], " ", h[2],
+                 " m: a Horizon Factor of 3.015 counts the root of their volume, and loses neighbors at 3 spacings\n");
 }
 
 // Bodies have distinct names, but blocks and sets of a file may have the names of others.
-void check_new(const std::vector<std::string>& names, const std::vector<std::string>& more, const std::string& what) {
-  for (const std::string& name : more) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) continue;
-    throw Error("two " + what + " are called '" + name + "': give a body from a file a 'name' of its own");
+template <class Item>
+void check_new(const std::vector<Item>& items, const std::vector<Item>& more, const std::string& what) {
+  for (const Item& item : more) {
+    if (std::ranges::find(items, item.name, &Item::name) == items.end()) continue;
+    throw Error("two " + what + " are called '" + item.name + "': give a body from a file a 'name' of its own");
   }
 }
 
@@ -190,9 +153,8 @@ io::Mesh extruded(const Body& body, std::string& summary) {
   // Cells of a uniform cylinder are as wide as its layers are thick; with growing layers they have the spacing.
   const double across = body.grading > 1 ? body.spacing : height(body) / static_cast<double>(levels.size() - 1);
   const Section section = section_of(body, across);
-  const Extrusion extrusion{section, levels, taper_of(body)};
   summary = summary_of(body, section, levels) + note_on_stretch(body);
-  return extrusion.hexahedra();
+  return extruded(section, levels, taper_of(body));
 }
 
 // The voxels whose center is in the body: all for a box, or those of a cylinder around the center of the grid.
@@ -225,10 +187,9 @@ io::Mesh gathered_body(const Body& body, std::string& summary) {
   const Gathering gathering{body.cells, body.smallest_cell};
   const Cells cells = gathered(voxels, {}, grid, gathering);
   const Vector h = cells.grid.spacing();
-  char text[200];
-  std::snprintf(text, sizeof text, "%s: %s in cells of %.6g %.6g %.6g m (asked for %g), exact volume %.6g m^3\n",
-                body.name.c_str(), shape_name(body), h[0], h[1], h[2], body.spacing, exact_volume(body));
-  summary = text + summary_of(cells, gathering);
+  summary = text_of(body.name, ": ", shape_name(body), " in cells of ", h[0], " ", h[1], " ", h[2], " m (asked for ",
+                    body.spacing, "), exact volume ", exact_volume(body), " m^3\n") +
+            summary_of(cells, gathering);
   io::Mesh mesh = cell_mesh(cells);
   if (body.shape == Body::Shape::cylinder) shift(mesh, {-grid.size[0] / 2, -grid.size[1] / 2, 0});
   return mesh;
@@ -306,8 +267,8 @@ void shift(io::Mesh& mesh, const Vector& by) {
 }
 
 void append(io::Mesh& mesh, const io::Mesh& body) {
-  check_new(names_of(mesh.blocks), names_of(body.blocks), "blocks");
-  check_new(names_of(mesh.node_sets), names_of(body.node_sets), "node sets");
+  check_new(mesh.blocks, body.blocks, "blocks");
+  check_new(mesh.node_sets, body.node_sets, "node sets");
   const int shift = static_cast<int>(mesh.nodes.size());
   const auto shifted = [&](std::vector<int> nodes) {
     for (int& node : nodes) node += shift;

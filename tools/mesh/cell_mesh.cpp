@@ -1,7 +1,8 @@
 // Makes hexahedra from cells; they share nodes where the material of the cells is connected.
 #include <algorithm>
-#include <cstdio>
+#include <iomanip>
 
+#include "base/text.hpp"
 #include "base/union_find.hpp"
 #include "mesh/cells.hpp"
 
@@ -77,17 +78,14 @@ std::string summary_of(const Cells& cells, const Gathering& gathering) {
   const double lost = cells.dropped == 0 ? 0 : cells.dropped_volume / (cells.dropped_volume + kept);
   const int n = gathering.factor;
   const Triple& places = cells.grid.cells;
-  char text[700];
-  std::snprintf(text, sizeof text,
-                "  %d x %d x %d voxels to a cell: %zu cells in %d x %d x %d places, volume %.6g m^3\n"
-                "  pieces of less than %g of a cell: %zu merged into neighbors, %zu kept that alone join others,\n"
-                "    %zu without neighbors dropped (%.3g %% of the volume)\n"
-                "  cells whose neighbors hardly span space: %zu cut in two layers, %zu merged,\n"
-                "    %zu kept that a run by quadratic correspondence leaves out (%.3g %% of the volume)\n",
-                n, n, n, cells.parts.size(), places[0], places[1], places[2], kept, gathering.smallest, cells.merged,
-                cells.small, cells.dropped, 100 * lost, cells.cut, cells.flat_merged, cells.flat,
-                100 * cells.flat_volume / kept);
-  return text;
+  return text_of(
+      "  ", n, " x ", n, " x ", n, " voxels to a cell: ", cells.parts.size(), " cells in ", places[0], " x ", places[1],
+      " x ", places[2], " places, volume ", kept, " m^3\n  pieces of less than ", gathering.smallest,
+      " of a cell: ", cells.merged, " merged into neighbors, ", cells.small, " kept that alone join others,\n    ",
+      cells.dropped, " without neighbors dropped (", std::setprecision(3), 100 * lost,
+      " % of the volume)\n  cells whose neighbors hardly span space: ", cells.cut, " cut in two layers, ",
+      cells.flat_merged, " merged,\n    ", cells.flat, " kept that a run by quadratic correspondence leaves out (",
+      100 * cells.flat_volume / kept, " % of the volume)\n");
 }
 
 }  // namespace strut::mesh

@@ -37,8 +37,8 @@ struct Cells {
 // limit is merged into one that has a common face with it: among those for which all connected pieces are at touching
 // positions, the one with the smallest joint moments. A merged piece is at the position of the larger one or, if only
 // that keeps its neighbors, of the smaller one. Volume and first and second moments are those of the voxels, without
-// dropped ones. Cells whose neighbors are in one plane are cut into two layers, or merged (FlatCells), unless the limit
-// is 0.
+// dropped ones. Cells whose neighbors are in one plane are cut into two layers, or merged (FlatCells), unless the
+// limit is 0.
 Cells gathered(const std::vector<int>& voxels, const std::vector<double>& fills, const VoxelGrid& grid,
                const Gathering& gathering);
 

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iomanip>
 #include <numeric>
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "mechanics/expected_error.hpp"
 #include "mesh/cells.hpp"
 #include "mesh/lattices.hpp"
@@ -20,11 +21,7 @@ constexpr double fewest_voxels_in_a_cell = 4;  // per foam cell diameter: fewer 
 constexpr double thin = 8;                     // voxels: thinner struts should not be stairs
 constexpr double too_much = 1.05;              // times the wanted density: the pieces connected too late
 
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string number(double value) { return text_of(std::setprecision(4), value); }
 
 double volume_of(const Struts& struts) {
   if (struts.fills.empty()) return static_cast<double>(struts.voxels.size());
@@ -64,24 +61,21 @@ std::string summary_of(const Body& body, const VoxelGrid& grid, const Skeleton& 
     length += part;
     edges += part > 0 ? 1 : 0;
   }
-  const double points = static_cast<double>(struts.voxels.size());
   const double thickness = 2 * struts.radius;
   const Vector h = grid.spacing();
-  char text[1000];
-  std::snprintf(text, sizeof text,
-                "%s: open-cell foam, irregularity %g, seed %llu: %.0f %s of %d x %d x %d voxels\n"
-                "  relative density %.6g (asked for %g) in one piece; %zu other pieces of %zu points in all dropped\n"
-                "  %zu cells (seeds in the box), %zu edges in the box, their length %.6g m in all\n"
-                "  struts %.4g spacings = %.4g m thick; spacing %.6g %.6g %.6g m (asked for %g)\n",
-                body.name.c_str(), body.irregularity, static_cast<unsigned long long>(body.seed), points,
-                body.cells > 0 ? "voxels" : "points", grid.cells[0], grid.cells[1], grid.cells[2],
-                volume_of(struts) / static_cast<double>(grid.count()), body.relative_density, struts.dropped_pieces,
-                struts.dropped_voxels, skeleton.cells, edges, length, thickness / std::cbrt(h.prod()), thickness, h[0],
-                h[1], h[2], body.spacing);
+  const std::string text = text_of(
+      body.name, ": open-cell foam, irregularity ", body.irregularity, ", seed ", body.seed, ": ", struts.voxels.size(),
+      body.cells > 0 ? " voxels of " : " points of ", grid.cells[0], " x ", grid.cells[1], " x ", grid.cells[2],
+      " voxels\n  relative density ", volume_of(struts) / static_cast<double>(grid.count()), " (asked for ",
+      body.relative_density, ") in one piece; ", struts.dropped_pieces, " other pieces of ", struts.dropped_voxels,
+      " points in all dropped\n  ", skeleton.cells, " cells (seeds in the box), ", edges,
+      " edges in the box, their length ", length, " m in all\n  struts ", number(thickness / std::cbrt(h.prod())),
+      " spacings = ", number(thickness), " m thick; spacing ", h[0], " ", h[1], " ", h[2], " m (asked for ",
+      body.spacing, ")\n");
   if (body.cells > 0 || thickness >= thin * body.spacing) return text;
-  return std::string(text) +
-         "  note: struts so thin are stairs of whole voxels; by 'cells = 6' errors of their stiffness are some " +
-         std::to_string(times_by_stairs) + " times smaller\n";
+  return text_of(
+      text, "  note: struts so thin are stairs of whole voxels; by 'cells = 6' errors of their stiffness are some ",
+      times_by_stairs, " times smaller\n");
 }
 
 // The body in voxels, if these are gathered in cells.
@@ -130,19 +124,14 @@ std::string summary_of_more(const Body& body, const Skeleton& skeleton) {
   return text;
 }
 
-io::Mesh mesh_of_cells(const Body& body, const Struts& struts, const std::string& members, const VoxelGrid& grid,
-                       std::string& summary) {
+io::Mesh mesh_of_members(const Body& body, const Struts& struts, const std::string& members, const VoxelGrid& grid,
+                         std::string& summary) {
+  if (body.cells == 0) return voxel_mesh(struts.voxels, grid);
   const Gathering gathering{body.cells, body.smallest_cell};
   const Cells cells = gathered(struts.voxels, struts.fills, grid, gathering);
   summary += summary_of(cells, gathering);
   if (struts.radius > 0) summary += resolution_of(members, 2 * struts.radius / std::cbrt(cells.grid.spacing().prod()));
   return cell_mesh(cells);
-}
-
-io::Mesh mesh_of_members(const Body& body, Struts struts, const std::string& members, const VoxelGrid& grid,
-                         std::string& summary) {
-  if (body.cells > 0) return mesh_of_cells(body, struts, members, grid, summary);
-  return voxel_mesh(struts.voxels, grid);
 }
 
 VoxelGrid grid_of_body(const Body& body) {
@@ -165,11 +154,8 @@ std::string summary_of_lattice(const Body& body, const VoxelGrid& grid, const St
   if (body.relative_density > 0) text << " (asked for " << body.relative_density << ")";
   text << " in one piece; " << struts.dropped_pieces << " other pieces of " << struts.dropped_voxels
        << " in all dropped\n";
-  if (has_struts(body.lattice)) {
-    text << "  " << lattice_cell(body.lattice).size() << " struts a cell, ";
-  } else {
-    text << "  ";
-  }
+  text << "  ";
+  if (has_struts(body.lattice)) text << lattice_cell(body.lattice).size() << " struts a cell, ";
   if (!body.is_solid())
     text << 2 * struts.radius / std::cbrt(h.prod()) << " voxels = " << 2 * struts.radius << " m thick; ";
   text << "spacing " << h.transpose() << " m\n";
@@ -220,10 +206,8 @@ io::Mesh foam_mesh(const Body& body, std::string& summary) {
 }
 
 std::string resolution_of(const std::string& members, double cells) {
-  char text[100];
-  std::snprintf(text, sizeof text, "  %s %.4g cells thick: by quadratic correspondence expect ", members.c_str(),
-                cells);
-  return text + expected_error_text(cells, "in the plateau, where metal flows") + " (docs/resolution.md)\n";
+  return text_of("  ", members, " ", number(cells), " cells thick: by quadratic correspondence expect ",
+                 expected_error_text(cells, "in the plateau, where metal flows"), " (docs/resolution.md)\n");
 }
 
 }  // namespace strut::mesh

@@ -42,13 +42,12 @@ bool Merging::reaches(int place, int piece, int other) const {
   });
 }
 
-template <class Place>
-Merging::Choice Merging::most_compact(int piece, double longest, const Place& place_with) const {
+Merging::Choice Merging::most_compact(int piece, double longest, const Allowed& allowed, bool is_at_piece) const {
   Choice best;
   double least = 0;
-  for (const int other : candidates_) {
-    const int place = place_with(other);
-    if (!reaches(place, piece, other) || !reaches(place, other, piece)) continue;
+  for (const int other : links_[piece]) {
+    const int place = list_[is_at_piece ? piece : other].place;
+    if (!allowed(other) || !reaches(place, piece, other) || !reaches(place, other, piece)) continue;
     io::PartialCell both = list_[other].part;
     absorb(both, list_[piece].part);
     const double extent = both.moments.head<3>().sum();
@@ -60,9 +59,9 @@ Merging::Choice Merging::most_compact(int piece, double longest, const Place& pl
   return best;
 }
 
-int Merging::merge_into_best(int piece, double longest) {
-  Choice choice = most_compact(piece, longest, [&](int other) { return list_[other].place; });
-  if (choice.into < 0) choice = most_compact(piece, longest, [&](int) { return list_[piece].place; });
+int Merging::merge(int piece, double longest, const Allowed& allowed) {
+  Choice choice = most_compact(piece, longest, allowed, false);
+  if (choice.into < 0) choice = most_compact(piece, longest, allowed, true);
   if (choice.into >= 0) join(piece, choice);
   return choice.into;
 }

@@ -1,7 +1,8 @@
 // Merges pieces of a body into their neighbors, one by one.
 #pragma once
 
-#include <limits>
+#include <cmath>
+#include <functional>
 #include <set>
 #include <vector>
 
@@ -19,17 +20,9 @@ class Merging {
   // Merges a piece into the one of its links that is `allowed`, gives the most compact result, and is no longer than
   // `longest` cells. The result is at the position of that link or, if only that keeps its neighbors, of the piece.
   // Returns the piece that contains both, or -1.
-  template <class Allowed>
-  int merge(int piece, double longest, const Allowed& allowed) {
-    candidates_.clear();
-    for (const int other : links_[piece]) {
-      if (allowed(other)) candidates_.push_back(other);
-    }
-    return merge_into_best(piece, longest);
-  }
-  int merge(int piece) {
-    return merge(piece, std::numeric_limits<double>::infinity(), [](int) { return true; });
-  }
+  using Allowed = std::function<bool(int)>;
+  int merge(
+      int piece, double longest = INFINITY, const Allowed& allowed = [](int) { return true; });
   void drop(int piece) { alive_[piece] = false; }
 
   bool alive(int piece) const { return alive_[piece]; }
@@ -44,10 +37,8 @@ class Merging {
     int place = 0;  // of the merged piece
   };
 
-  int merge_into_best(int piece, double longest);
   bool reaches(int place, int piece, int other) const;
-  template <class Place>
-  Choice most_compact(int piece, double longest, const Place& place_with) const;
+  Choice most_compact(int piece, double longest, const Allowed& allowed, bool is_at_piece) const;
   void join(int piece, const Choice& choice);
 
   Pieces& pieces_;
@@ -56,7 +47,6 @@ class Merging {
   const VoxelGrid& grid_;
   std::vector<char> alive_;
   std::vector<int> into_;  // the piece that a merged piece became part of
-  std::vector<int> candidates_;
 };
 
 }  // namespace strut::mesh

@@ -1,18 +1,19 @@
 #include "mesh/recipe.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <set>
-#include <sstream>
+#include <variant>
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
 #include "base/numbers.hpp"
 #include "mesh/lattices.hpp"
-#include "mesh/recipe_lines.hpp"
 
 namespace strut::mesh {
 
@@ -39,10 +40,10 @@ constexpr unsigned made = round | box | of_struts, any = made | file;
 
 struct Key {
   const char* name;
-  unsigned kinds;               // that have it
-  bool required = false;        // by all of them
-  const char* needs = nullptr;  // another key
-  double Body::*number = nullptr;
+  unsigned kinds;                                                          // that have it
+  bool required = false;                                                   // by all of them
+  const char* needs = nullptr;                                             // another key
+  std::variant<double Body::*, int Body::*, Vector Body::*> numbers = {};  // one, a whole one, three
   double low = 0, high = 0;
   const char* expected = nullptr;
   const char* unless = nullptr;  // a key that a lattice may have in its place
@@ -55,7 +56,7 @@ const std::vector<Key> keys = {
     {"elements", made},
     {"centred", lattice_cylinder},
     {"spacing", made, true, nullptr, &Body::spacing, tiny, huge, a_length},
-    {"cells", gathered},
+    {"cells", gathered, false, nullptr, &Body::cells, 2, 16, "a whole number from 2 to 16"},
     {"smallest_cell", gathered, false, "cells", &Body::smallest_cell, 0, 0.9, "a number from 0 to 0.9"},
     {"grading", layered, false, nullptr, &Body::grading, 1, 2, "a number from 1 to 2"},
     {"uniform", layered, false, "grading", &Body::uniform, tiny, huge, a_length},
@@ -63,7 +64,7 @@ const std::vector<Key> keys = {
     {"length", round, true, nullptr, &Body::length, tiny, huge, a_length},
     {"radius", round, true, nullptr, &Body::radius, tiny, huge, a_length},
     {"top_radius", cone, true, nullptr, &Body::top_radius, tiny, huge, a_length},
-    {.name = "size", .kinds = box | of_struts, .required = true, .unless = "count"},
+    {"size", box | of_struts, true, nullptr, &Body::size, tiny, huge, "three lengths > 0", "count"},
     {"cell", of_struts, true, nullptr, &Body::cell, tiny, huge, a_length},
     {"relative_density", of_struts, true, nullptr, &Body::relative_density, tiny, below_one, "a number between 0 and 1",
      "thickness"},
@@ -72,8 +73,8 @@ const std::vector<Key> keys = {
     {"irregularity", foam, false, nullptr, &Body::irregularity, 0, 1, "a number from 0 to 1"},
     {"seed", foam},
     {"sizes", foam, false, nullptr, &Body::sizes, 0, 0.6, "a number from 0 to 0.6"},
-    {"relax", foam},
-    {"stretch", foam},
+    {"relax", foam, false, nullptr, &Body::relax, 0, 1000, "a whole number from 0 to 1000"},
+    {"stretch", foam, false, nullptr, &Body::stretch, 0.2, 5, "three numbers from 0.2 to 5"},
     {"section", foam},
     {"lattice", lattice, true},
     {"count", lattice},
@@ -88,27 +89,109 @@ std::vector<std::string> names_of_keys() {
 }
 
 Kind kind_of(const Body& body) {
-  switch (body.shape) {
-    case Body::Shape::cylinder:
-      return body.method == Body::Method::fitted ? fitted_cylinder : lattice_cylinder;
-    case Body::Shape::cone:
-      return cone;
-    case Body::Shape::box:
-      return box;
-    case Body::Shape::foam:
-      return foam;
-    case Body::Shape::lattice:
-      return lattice;
-    default:
-      return file;
-  }
+  constexpr Kind kinds[] = {lattice_cylinder, cone, box, foam, lattice, file};  // of the shapes
+  if (body.shape == Body::Shape::cylinder && body.method == Body::Method::fitted) return fitted_cylinder;
+  return kinds[static_cast<int>(body.shape)];
 }
 
 std::string name_of(Kind kind) {
-  if (kind == lattice_cylinder) return "lattice cylinder";
-  if (kind == fitted_cylinder) return "fitted cylinder";
-  return kind == cone ? "cone" : kind == box ? "box" : kind == foam ? "foam" : kind == lattice ? "lattice" : "file";
+  constexpr const char* names[] = {"lattice cylinder", "fitted cylinder", "cone", "box", "foam", "lattice", "file"};
+  return names[std::countr_zero<unsigned>(kind)];
 }
+
+struct Entry {
+  std::string value;
+  int line = 0;
+};
+
+// The entries of one body.
+struct Entries {
+  int line;  // where it begins
+  std::map<std::string, Entry> by_key = {};
+
+  const Entry* find(const std::string& key) const {
+    const auto place = by_key.find(key);
+    return place == by_key.end() ? nullptr : &place->second;
+  }
+};
+
+// The entries of each body, with those that stand before the first '[body]' as defaults. Adds a problem, which begins
+// with the number of its line, for each line that is not a key with a value. Throws Error of one line if this is
+// another kind of file: most of its first lines are no lines of a recipe.
+class Lines {
+ public:
+  Lines(const std::filesystem::path& path, std::vector<std::string>& problems) : path_(path), problems_(problems) {}
+
+  std::vector<Entries> read() {
+    if (const std::string why = unreadable(path_); !why.empty()) throw Error(why);
+    std::ifstream stream(path_);
+    std::string text;
+    int lines = 0;
+    for (int number = 1; std::getline(stream, text); ++number) {
+      if (number == 1) text = without_mark(text);
+      const std::string content(trimmed(std::string_view(text).substr(0, text.find('#'))));
+      if (content.empty()) continue;
+      if (content.find('\0') != std::string::npos)
+        throw Error(path_.string() + ": it is no recipe but holds other than text");
+      read_line(content, number);
+      if (++lines == looked_at || stream.peek() == EOF) check_kind(lines);
+    }
+    if (bodies_.empty()) return {common_};
+    for (Entries& body : bodies_) body.by_key.insert(common_.by_key.begin(), common_.by_key.end());
+    return bodies_;
+  }
+
+ private:
+  static constexpr int looked_at = 100;
+
+  void check_kind(int lines) const {
+    if (lines > looked_at || foreign_ <= 2 || foreign_ < lines / 2) return;
+    throw Error(path_.string() + ": it is no recipe: expected lines 'key = value' or '[body]', found '" +
+                first_foreign_ + "'" +
+                " and others; meshes of other programs are for tools/tetrahedra, images for tools/voxels");
+  }
+
+  // A line that cannot be of a recipe.
+  void take_foreign(const std::string& content) {
+    if (foreign_++ > 0) return;
+    for (const char c : content.substr(0, 60)) first_foreign_ += c >= ' ' && c <= '~' ? c : '?';
+  }
+
+  void read_line(const std::string& content, int number) {
+    if (content == "[body]") {
+      bodies_.push_back({number});
+      return;
+    }
+    const auto sign = content.find('=');
+    if (sign == std::string::npos) {
+      take_foreign(content);
+      return fail(number, "expected 'key = value' or '[body]', found '" + content + "'");
+    }
+    const std::string key(trimmed(content.substr(0, sign))), value(trimmed(content.substr(sign + 1)));
+    if (std::ranges::find(keys_, key) == keys_.end()) {
+      if (key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_ ") != std::string::npos) take_foreign(content);
+      return fail(number, "unknown key '" + key + "'" + did_you_mean(key, keys_) + "; keys are " + joined(keys_));
+    }
+    Entries& body = bodies_.empty() ? common_ : bodies_.back();
+    if (value.empty()) return fail(number, "key '" + key + "' has no value");
+    if (const Entry* first = body.find(key)) {
+      return fail(number, "key '" + key + "' again (first in line " + std::to_string(first->line) + ")");
+    }
+    body.by_key[key] = {value, number};
+  }
+
+  void fail(int line, const std::string& problem) {
+    problems_.push_back("line " + std::to_string(line) + ": " + problem);
+  }
+
+  const std::filesystem::path& path_;
+  const std::vector<std::string> keys_ = names_of_keys();
+  std::vector<std::string>& problems_;
+  int foreign_ = 0;
+  std::string first_foreign_;
+  Entries common_{1};
+  std::vector<Entries> bodies_;
+};
 
 // Converts entries to a Body.
 class Converter {
@@ -128,7 +211,7 @@ class Converter {
       if (entry != nullptr) {
         check_and_take(key, *entry, kind, body);
       } else if (key.required && (key.kinds & kind) != 0 && !has_other(key, kind)) {
-        problems_.push_back("the body that starts in line " + std::to_string(entries_.line()) + " lacks the key '" +
+        problems_.push_back("the body that starts in line " + std::to_string(entries_.line) + " lacks the key '" +
                             key.name + "'");
       }
     }
@@ -147,10 +230,25 @@ class Converter {
     if (key.needs != nullptr && entries_.find(key.needs) == nullptr) {
       return fail(entry, std::string("a body without the key '") + key.needs + "' has no key '" + key.name + "'");
     }
-    if (key.number == nullptr) return take(key.name, entry, kind, body);
-    body.*key.number = number(entry.value);
-    if (body.*key.number >= key.low && body.*key.number <= key.high) return;
+    if (key.expected == nullptr) return take(key.name, entry, kind, body);
+    if (take_numbers(key, numbers(entry.value), body)) return;
     fail(entry, std::string(key.name) + " is '" + entry.value + "', expected " + key.expected);
+  }
+
+  // Returns false if they are not as many, not whole, or beyond the limits.
+  static bool take_numbers(const Key& key, const std::vector<double>& values, Body& body) {
+    const auto* const three = std::get_if<Vector Body::*>(&key.numbers);
+    const auto* const whole = std::get_if<int Body::*>(&key.numbers);
+    const auto is_wrong = [&](double x) { return !(x >= key.low && x <= key.high) || (whole && x != std::floor(x)); };
+    if (values.size() != (three ? 3 : 1) || std::ranges::any_of(values, is_wrong)) return false;
+    if (three) {
+      body.** three = Vector(values.data());
+    } else if (whole) {
+      body.** whole = static_cast<int>(values[0]);
+    } else {
+      body.*std::get<double Body::*>(key.numbers) = values[0];
+    }
+    return true;
   }
 
   // Keys that are no numbers with limits.
@@ -171,57 +269,22 @@ class Converter {
     if (key == "method" && (kind & (box | of_struts)) != 0 && body.method == Body::Method::fitted) {
       fail(entry, "a " + name_of(kind) + " has only the method lattice");
     }
-    if (key == "relax") take_relax(entry, body);
     if (key == "section") {
-      body.three_cornered = choice<Section>(key, {"round", "three-cornered"}, 0) == Section::three_cornered;
+      body.three_cornered = choice<int>(key, {"round", "three-cornered"}, 0) == 1;
     }
     if (key == "periodic") take_axes(entry, body);
-    if (key == "lattice") take_lattice(entry, body);
+    if (key == "lattice") body.lattice = lattice_names()[choice<int>(key, lattice_names(), 0)];
     if (key == "count") take_count(entry, body);
-    if (key == "stretch") {
-      body.stretch = vector(entry);
-      if (!(body.stretch.minCoeff() >= 0.2 && body.stretch.maxCoeff() <= 5)) {
-        fail(entry, "stretch is '" + entry.value + "', expected three numbers from 0.2 to 5");
-      }
-    }
-    if (key == "size") {
-      body.size = vector(entry);
-      if (!(body.size.minCoeff() > 0)) fail(entry, "size is '" + entry.value + "', expected three lengths > 0");
-    }
-    if (key == "cells") {
-      const double value = number(entry.value);
-      const bool fits = value >= 2 && value <= 16 && value == std::floor(value);
-      if (!fits) return fail(entry, "cells is '" + entry.value + "', expected a whole number from 2 to 16");
-      body.cells = static_cast<int>(value);
-    }
-  }
-
-  enum class Section { round, three_cornered };
-
-  void take_relax(const Entry& entry, Body& body) {
-    const double value = number(entry.value);
-    const bool fits = value >= 0 && value <= 1000 && value == std::floor(value);
-    if (!fits) return fail(entry, "relax is '" + entry.value + "', expected a whole number from 0 to 1000");
-    body.relax = static_cast<int>(value);
   }
 
   void take_axes(const Entry& entry, Body& body) {
-    std::istringstream stream(entry.value);
-    for (std::string word; stream >> word;) {
+    for (const std::string& word : to_words(entry.value)) {
       const bool is_axis = word.size() == 1 && word[0] >= 'x' && word[0] <= 'z';
       if (!is_axis) {
         return fail(entry, "periodic is '" + entry.value + "', expected axes: x, y, z, with blanks between");
       }
       body.periodic[word[0] - 'x'] = true;
     }
-  }
-
-  void take_lattice(const Entry& entry, Body& body) {
-    const std::vector<std::string>& names = lattice_names();
-    body.lattice = entry.value;
-    if (std::find(names.begin(), names.end(), entry.value) != names.end()) return;
-    fail(entry,
-         "lattice is '" + entry.value + "', expected " + joined(names, " or ") + did_you_mean(entry.value, names));
   }
 
   // Whole cells along each axis; one number holds for all three.
@@ -286,10 +349,14 @@ class Converter {
   // Returns NaN if the word is no finite number.
   static double number(const std::string& word) { return to_finite(word).value_or(NAN); }
 
-  Vector vector(const Entry& entry) {
-    std::istringstream stream(entry.value);
+  static std::vector<double> numbers(const std::string& text) {
     std::vector<double> values;
-    for (std::string word; stream >> word;) values.push_back(number(word));
+    for (const std::string& word : to_words(text)) values.push_back(number(word));
+    return values;
+  }
+
+  Vector vector(const Entry& entry) {
+    const std::vector<double> values = numbers(entry.value);
     const bool fits = values.size() == 3 && std::isfinite(values[0] + values[1] + values[2]);
     if (fits) return {values[0], values[1], values[2]};
     fail(entry, "'" + entry.value + "' is not three numbers");
@@ -301,24 +368,13 @@ class Converter {
   std::vector<std::string>& problems_;
 };
 
-std::vector<Entries> lines_of(const std::filesystem::path& path, std::istream& file,
-                              std::vector<std::string>& problems) {
-  try {
-    return read_lines(file, names_of_keys(), problems);
-  } catch (const Error& error) {
-    throw Error(path.string() + ": " + error.what());
-  }
-}
-
 }  // namespace
 
 std::vector<Body> read_recipe(const std::filesystem::path& path) {
-  if (const std::string why = unreadable(path); !why.empty()) throw Error(why);
-  std::ifstream file(path);
   std::vector<std::string> problems;
   std::vector<Body> bodies;
   std::set<std::string> names;
-  for (const Entries& entries : lines_of(path, file, problems)) {
+  for (const Entries& entries : Lines(path, problems).read()) {
     bodies.push_back(Converter(entries, path.parent_path(), problems).convert());
     if (!names.insert(bodies.back().name).second)
       problems.push_back("two bodies are called '" + bodies.back().name + "'");

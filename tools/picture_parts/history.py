@@ -17,9 +17,7 @@ def finished(figure, panels, clock, out):
     for axes in panels:
         axes.grid(alpha=0.3)
         axes.margins(x=0)
-    save_picture(figure, out, dpi=110)
-    plt.close(figure)
-    return out
+    return save_picture(figure, out)
 
 
 def energies(path, out):
@@ -37,11 +35,6 @@ def energies(path, out):
     panels[1].ticklabel_format(axis="y", scilimits=(-2, 2))
     panels[0].legend(frameon=False)
     return finished(figure, panels, clock, out)
-
-
-def named(path, prefixes):
-    """The columns whose names begin with one of the prefixes."""
-    return [name for name in history(path) if name.startswith(prefixes)]
 
 
 def columns(paths, names, out):

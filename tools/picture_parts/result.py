@@ -1,4 +1,5 @@
 """A result (Exodus II) of material points: names, frames and columns, read on demand."""
+import collections
 import os
 
 import exodus
@@ -37,17 +38,20 @@ def without_components(names):
     return list(dict.fromkeys(n[:-1] if n[-1] in "XYZ" and n[:-1] in vectors else n for n in names))
 
 
-class Block:
-    def __init__(self, name, number, nodes, volumes):
-        self.name, self.number, self.nodes, self.volumes = name, number, nodes, volumes
+Block = collections.namedtuple("Block", "name number nodes volumes")
 
 
 class Result:
     """Values are per node, and each node is a point; columns of a frame are read on demand."""
 
     def __init__(self, path):
-        self.path, self.file = path, opened(path)
-        self.times = np.array(self.file.variables["time_whole"][:])
+        self.path, self.file = path, exodus.opened(path)
+        if "num_nodes" not in self.file.dimensions or len(self.file.variables.get("time_whole", [])) == 0:
+            fail(f"{path} is not a result: it has no nodes or no frames")
+        self.times = times = np.array(self.file.variables["time_whole"][:])
+        if not (np.diff(times) > 0).all():
+            late = 1 + int(np.argmin(np.diff(times) > 0))
+            fail(f"{path} is damaged: frame {late + 1} of {len(times)} is at t = {times[late]:g} s, the one before at {times[late - 1]:g} s")
         self.reference = np.stack([self.file.variables["coord" + c][:] for c in "xyz"], axis=1)
         self.nodal, self.elemental = names_in(self.file, "name_nod_var"), names_in(self.file, "name_elem_var")
         self.names = without_components(self.nodal + self.elemental)
@@ -90,14 +94,3 @@ class Result:
         if any("Displacement" + c not in self.nodal for c in "XYZ"):
             fail(f"{self.path} has no variable Displacement: add it to Output Variables")
         return np.stack([self._column("Displacement" + c, frame) for c in "XYZ"], axis=1)
-
-
-def opened(path):
-    file = exodus.opened(path)
-    if "num_nodes" not in file.dimensions or len(file.variables.get("time_whole", [])) == 0:
-        fail(f"{path} is not a result: it has no nodes or no frames")
-    times = file.variables["time_whole"][:]
-    if not (np.diff(times) > 0).all():
-        late = 1 + int(np.argmin(np.diff(times) > 0))
-        fail(f"{path} is damaged: frame {late + 1} of {len(times)} is at t = {times[late]:g} s, the one before at {times[late - 1]:g} s")
-    return file

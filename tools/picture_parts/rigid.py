@@ -6,8 +6,7 @@ from decks import Deck, value_at, value_in
 from scipy.integrate import cumulative_trapezoid
 from strut_tools import fail, history
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
-from vtkmodules.vtkFiltersCore import vtkTriangleFilter, vtkTubeFilter
-from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkLineSource
+from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkCylinderSource
 
 from .surface import places_of
 
@@ -75,7 +74,7 @@ class Tool:
         along = np.array(list(itertools.product(*zip(low, high))) - point) @ axes.T  # the corners of the box
         lower, upper = along.min(axis=0) - margin, along.max(axis=0) + margin
         if self.kind == "Rigid Cylinder":
-            return roll(point + lower[2] * axes[2], point + upper[2] * axes[2], self.number("Radius", 0))
+            return roll(point + 0.5 * (lower[2] + upper[2]) * axes[2], axes, upper[2] - lower[2], self.number("Radius", 0))
         lower[2], upper[2] = -0.2 * margin, 0  # the front of a half space: a thin plate behind its plane
         return block(lower, upper, point, axes)
 
@@ -97,29 +96,26 @@ def axes_along(direction):
     return np.stack([u, np.cross(w, u), w])
 
 
+def placed(source, origin, axes):
+    """The surface of a source of VTK whose own axes are these (rows), through the origin."""
+    source.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
+    source.Update()
+    places = places_of(source.GetOutput())
+    places[:] = origin + places @ axes
+    return source.GetOutput()
+
+
 def block(lower, upper, origin=np.zeros(3), axes=np.eye(3)):
     """A box along axes (rows) through the origin."""
     cube = vtkCubeSource()
-    cube.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
     cube.SetBounds(*np.stack([lower, upper], axis=1).ravel())
-    cube.Update()
-    places = places_of(cube.GetOutput())
-    places[:] = origin + places @ axes
-    return cube.GetOutput()
+    return placed(cube, origin, axes)
 
 
-def roll(start, end, radius):
-    line, around = vtkLineSource(), vtkTubeFilter()
-    line.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
-    line.SetPoint1(start)
-    line.SetPoint2(end)
-    around.SetInputConnection(line.GetOutputPort())
-    around.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
-    around.SetRadius(radius)
-    around.SetNumberOfSides(ARC)
-    around.CappingOn()
-    around.Update()
-    strips = vtkTriangleFilter()
-    strips.SetInputConnection(around.GetOutputPort())
-    strips.Update()
-    return strips.GetOutput()
+def roll(middle, axes, length, radius):
+    """A cylinder along the last of the axes."""
+    cylinder = vtkCylinderSource()  # along its own y
+    cylinder.SetHeight(length)
+    cylinder.SetRadius(radius)
+    cylinder.SetResolution(ARC)
+    return placed(cylinder, middle, np.roll(axes, -1, axis=0))

@@ -1,6 +1,7 @@
 """Three slices through the middle of a scan, and of the solid made from it."""
 import matplotlib.pyplot as plt
 import numpy as np
+from strut_tools import save_picture
 
 PLANES = (("z", "x", "y"), ("y", "x", "z"), ("x", "y", "z"))  # across, to the right, up
 
@@ -36,5 +37,4 @@ def picture(path, title, values, cell, how, solid=None, solid_cell=None):
             axes.set_title("what is kept" if most == 1 else "materials", fontsize=10)
         figure.colorbar(drawn, ax=panels[1], shrink=0.8, ticks=range(most + 1))
     figure.suptitle(f"{title}: {how}", fontsize=11)
-    figure.savefig(path, dpi=110)
-    plt.close(figure)
+    save_picture(figure, path)

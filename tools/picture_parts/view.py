@@ -245,19 +245,13 @@ def figure_of(scene, images, rows, columns):
     return figure
 
 
-def save(figure, out):
-    save_picture(figure, out, dpi=DPI)
-    plt.close(figure)
-    return out
-
-
 def pictures(path, file_of, wanted, one=False):
     """One picture, or one for each variable, file_of(its name); gives their names one by one."""
     scene = Scene(Result(path), wanted)
     columns, rows = range(len(scene.frames)), range(len(scene.rows))
     images = scene.images(columns)
     for part in [rows] if one else [[row] for row in rows]:
-        yield save(figure_of(scene, images, part, columns), file_of(scene.rows[part[0]].name))
+        yield save_picture(figure_of(scene, images, part, columns), file_of(scene.rows[part[0]].name), DPI)
 
 
 def movie(path, out, wanted):

@@ -1,6 +1,5 @@
 #include "point/path.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -8,31 +7,22 @@
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
+#include "base/numbers.hpp"
 
 namespace strut::point {
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
 const std::string columns = "seven numbers separated by commas: time, xx, yy, zz, xy, yz, zx";
 
 // The numbers of `line`, separated by commas, or nullopt.
 std::optional<std::vector<double>> numbers_of(const std::string& line) {
   std::vector<double> numbers;
-  const char *at = line.data(), *const end = line.data() + line.size();
-  const auto skip_blanks = [&] {
-    while (at != end && blanks.find(*at) != std::string_view::npos) ++at;
-  };
-  while (true) {
-    skip_blanks();
-    double number = 0;
-    const auto [next, error] = std::from_chars(at, end, number);
-    if (error != std::errc() || !std::isfinite(number)) return {};
-    numbers.push_back(number);
-    at = next;
-    skip_blanks();
-    if (at == end) return numbers;
-    if (*at++ != ',') return {};
+  for (const std::string& cell : to_cells(line)) {
+    const auto number = to_finite(cell);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
   }
+  return numbers;
 }
 
 // The error of the next row, or nothing.
@@ -56,8 +46,7 @@ Path read_path(const std::filesystem::path& file, const StressPrescribed& prescr
   std::string line;
   bool header_allowed = true;
   for (int number = 1; std::getline(in, line); ++number) {
-    const auto start = line.find_first_not_of(blanks);
-    if (start == std::string::npos || line[start] == '#') continue;
+    if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
     const std::string place = file.string() + ":" + std::to_string(number) + ": ";
     const auto numbers = numbers_of(line);
     const bool header = header_allowed && !numbers;

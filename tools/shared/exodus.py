@@ -138,23 +138,15 @@ def write_mesh(path, nodes, blocks, sets):
     return f"{path}: {sum(len(b[2]) for b in blocks)} points, {len(nodes)} nodes; node sets {', '.join(sets)}"
 
 
-def gather_voxels(path, name, places, shape, cell, origin, factor, smallest, fills=None, thickness=None):
-    """A mesh of cells of factor^3 voxels, by strut-mesh. places: solid voxels (i, j, k), i fastest; shape: of the box (x, y, z);
-    fills: the solid fraction of each; thickness: of struts and walls, in voxels."""
-    import numpy as np
-
-    kind = ("solid" if fills is None else "grey") + ("" if thickness is None else f" {thickness:.6g}")
-    header = f"strut-mesh arrays 1\nnodes 0\nvoxels {name} {len(places)} {' '.join(map(str, shape))} {factor} {smallest} {kind}\n"
-    parts = [(np.array([*cell, *origin]), "<f8"), (places, "<i4"), *([] if fills is None else [(fills, "<f8")])]
+def gather_voxels(path, parts):
+    """A mesh of partly filled cells, by strut-mesh. parts: cells.stream_of()."""
     try:
         run = subprocess.Popen([program("strut-mesh"), "--arrays", path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     except OSError as error:
         fail(f"{program('strut-mesh')} cannot be started: {error.strerror}")
     try:
-        run.stdin.write(header.encode())
-        for array, form in parts:
-            run.stdin.write(np.ascontiguousarray(array, form).reshape(-1).view(np.uint8))
-        run.stdin.write(b"end\n")
+        for part in parts:
+            run.stdin.write(part)
     except BrokenPipeError:
         pass  # the program reports the reason, below
     out, errors = run.communicate()

@@ -30,11 +30,11 @@ def run(main):
         fail(str(error))
 
 
-def install_missing(packages):
-    """{module: Debian's package}: restarts the script with Debian's Python if need be, and installs what it lacks."""
+def install_missing(*modules):
+    """Restarts the script with Debian's Python if need be, and installs what it lacks."""
     import importlib.util
 
-    missing = [package for module, package in packages.items() if importlib.util.find_spec(module) is None]
+    missing = [f"python3-{'vtk9' if module == 'vtkmodules' else module.lower()}" for module in modules if importlib.util.find_spec(module) is None]
     if not missing:
         return
     debians = "/usr/bin/python3"  # which Debian's packages are for
@@ -92,7 +92,7 @@ class Parser(argparse.ArgumentParser):
         self.add_argument(option, type=numbers, **words)
 
     def parse_args(self, words=None):
-        found, unknown = self.parse_known_args(self.joined(sys.argv[1:] if words is None else words))
+        found, unknown = self.parse_known_intermixed_args(self.joined(sys.argv[1:] if words is None else words))
         if unknown:
             self.error(f"unknown option '{unknown[0]}'{nearest(unknown[0], self._option_string_actions)}")
         return found
@@ -168,9 +168,13 @@ def begins(path, text):
 MARK = "strut"  # the program that made a picture
 
 
-def save_picture(figure, path, **words):
-    """Saves a picture with a mark of its program, which own_file checks."""
-    figure.savefig(path, metadata={"Software": MARK} if path.endswith(".png") else None, **words)
+def save_picture(figure, path, dpi=110):
+    """Saves a picture with a mark of its program, which own_file checks, and closes it. Returns the path."""
+    from matplotlib import pyplot
+
+    figure.savefig(path, metadata={"Software": MARK} if path.endswith(".png") else None, dpi=dpi)
+    pyplot.close(figure)
+    return path
 
 
 def is_our_picture(path):

@@ -12,23 +12,13 @@ class Sample:
     filled cells count as prisms, and the box ends where the material does: whole cells may extend beyond it."""
 
     def __init__(self, mesh):
-        file = opened(mesh)
-        try:
-            # In the order of the elements' numbers, whatever that of the file's variables.
-            blocks = [n for n in range(1, len(file.dimensions["num_el_blk"]) + 1)
-                      if f"connect{n}" in file.variables and len(file[f"connect{n}"])]
-            parts = [extent.cells_of(file, number) for number in blocks]
-            boxes = [extent.box_of(file, number) for number in blocks]
-            count = sum(len(file[f"connect{n}"]) for n in blocks)
-            self.numbers = file["elem_num_map"][:] if "elem_num_map" in file.variables else 1 + np.arange(count)
-        except (OSError, IndexError, KeyError, AttributeError) as error:
-            fail(f"{mesh} is not an Exodus mesh: {error}")
-        if not parts or any(part is None for part in parts):
-            fail(f"{mesh} has elements without an extent: spheres do not tell the faces of a box")
+        parts, box = extent.of_blocks(mesh, None, extent.cells_of), extent.box_in(mesh, None)
+        if not parts:
+            fail(f"{mesh}: expected hexahedra or tetrahedra, which tell the faces of a box; it has none, also others, or is damaged")
         edges, self.places, self.halves = (np.concatenate(found) for found in zip(*parts))
-        self.edge = edges.min(axis=0)
-        self.low = np.min([low for low, _ in boxes], axis=0)
-        self.high = np.max([high for _, high in boxes], axis=0)
+        self.edge, (self.low, self.high) = edges.min(axis=0), box
+        with opened(mesh) as file:
+            self.numbers = file["elem_num_map"][:] if "elem_num_map" in file.variables else 1 + np.arange(len(edges))
 
     def held(self, face, layers):
         """The numbers of the points in this many layers at a face. In the innermost layer, only points without another

@@ -1,6 +1,7 @@
 """The text and the picture of a stiffness."""
 import matplotlib.pyplot as plt
 import numpy as np
+from strut_tools import save_picture
 
 from . import tensors
 from .loads import ORDER
@@ -46,5 +47,4 @@ def figure(path, title, found):
         panel.set_title(f"E in the plane {'xyz'[a]}{'xyz'[b]} (from {'xyz'[a]}), GPa", fontsize=10)
     panel.legend(loc="lower right", fontsize=8)
     drawing.suptitle(title)
-    drawing.savefig(path, dpi=110)
-    plt.close(drawing)
+    save_picture(drawing, path)

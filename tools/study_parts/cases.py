@@ -14,7 +14,7 @@ import time
 
 from strut_tools import fail, is_open_mpi, mpirun, own_file, program
 
-from . import inputs
+from . import inputs, logs
 
 EARLY = 3  # exit status of a run that a signal or its wall time has ended
 
@@ -111,12 +111,11 @@ class Case:
             trial = copy.copy(self)
             trial.folder = os.path.join(folder, "trial")
             trial.prepare()
-            with open(trial.log, "a+") as log:
+            with open(trial.log, "a") as log:
                 if trial.make_mesh(log) == 0:
                     subprocess.run(trial.command(ranks, "--check"), cwd=trial.folder, stdout=log, stderr=log,
                                    env=environment())
-                log.seek(0)
-                return log.read()
+            return logs.text_of(trial.log)
 
     def ended(self, stopped=False):
         """True if the run has ended, now or before. One ended by a signal is resumed another time."""
@@ -142,12 +141,8 @@ class Case:
 
     def part(self):
         """Fraction of its simulated time that is computed, 0 to 1."""
-        try:
-            with open(self.log) as file:
-                found = re.findall(r"^ *(\d+) %  t = ", file.read(), re.M)
-            return int(found[-1]) / 100 if found else 0
-        except OSError:
-            return 0
+        found = re.findall(r"^ *(\d+) %  t = ", logs.text_of(self.log), re.M)
+        return int(found[-1]) / 100 if found else 0
 
 
 def environment():
@@ -186,8 +181,9 @@ def last_line(path):
     return lines[own[-1]].strip() + "".join(f"; {line.strip()}" for line in listed)
 
 
-def run_all(cases, jobs, ranks, tell):
-    """Runs several at a time. Returns True if all have ended, False if a signal has stopped them."""
+def run_all(cases, ranks, tell, jobs=None):
+    """Runs several at a time, else as many as there are cores for. Ends the tool if a signal has stopped them."""
+    jobs = jobs or max(1, len(os.sched_getaffinity(0)) // ranks)
     waiting, running, stopped = [c for c in cases if not c.done()], [], []
 
     def stop(*_):
@@ -212,7 +208,8 @@ def run_all(cases, jobs, ranks, tell):
             time.sleep(0.2)
     for number, handler in before.items():
         signal.signal(number, handler)
-    return not stopped
+    if stopped:
+        fail("stopped by a signal; the same command goes on with it")
 
 
 def left(began, ahead, to_do):

@@ -8,7 +8,7 @@ import sys
 import matplotlib.pyplot as plt
 import numpy as np
 from decks import Deck, value_of
-from strut_tools import ROOT, fail, history_of, number, write_table
+from strut_tools import ROOT, fail, history_of, number, save_picture, write_table
 
 from study_parts import bands, logs
 
@@ -20,8 +20,7 @@ OF_LOGS = (*FACTS, "warnings")  # columns of the table
 def facts_of(case):
     """The facts in the log of a run: the last points and balance error; steps and seconds of all parts, if it was stopped
     and went on. One part tells the seconds of both of its solvers, and the steps of each: those of the last one count."""
-    with open(case.log, errors="replace") as file:
-        text = file.read()
+    text = logs.text_of(case.log)
     parts = re.split(r"^(?=[\d,]+ points, [\d,]+ bonds)", text, flags=re.M)
     parts = parts[1:] or parts  # before the first one stands what strut-mesh says
     found = {name: last_of(name, text) for name in ("points", "balance_error")}
@@ -122,8 +121,7 @@ def figure(path, study, cases, rows, units):
         axes.grid(alpha=0.3)
         if axes.get_legend_handles_labels()[0]:
             axes.legend(frameon=False)
-    drawing.savefig(path, dpi=110)
-    plt.close(drawing)
+    save_picture(drawing, path)
 
 
 def draw(axes, plot, rows):

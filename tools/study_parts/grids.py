@@ -138,38 +138,21 @@ def expect(study, name):
 # Cost
 
 
-@dataclass
-class Cost:
-    size: float
-    points: float | None
-    steps: float | None
-    seconds: float | None
-    basis: str
-
-    def at(self, size, equilibrium):
-        """The cost of another grid: cells as h^-3, steps as h^-1 (iterations, not load steps), time as h^-4."""
-        finer = self.size / size
-        powers = (self.points, 3), (self.steps, 0 if equilibrium else 1), (self.seconds, 4)
-        return [value and value * finer**power for value, power in powers]
-
-
 def cost_of(kind, ranks):
-    """The cost of the finest completed run, else of the coarsest by strut --check."""
+    """Spacing, (points, steps, seconds) and name of the finest completed run, else of the coarsest by strut --check."""
     for size, case in zip(kind.sizes, kind.cases):
         state = case.state()
         if state.get("over") and not state.get("error") and state.get("seconds"):
             facts = collect.facts_of(case)
-            return Cost(size, facts.get("points"), facts.get("steps"), state["seconds"], f"{plan.name_of(case.values)}, which is done")
+            return size, (facts.get("points"), facts.get("steps"), state["seconds"]), f"{plan.name_of(case.values)}, which is done"
     said = kind.cases[-1].check(ranks)
-    points = re.search(r"^([\d,]+) points,", said, re.M)
     steps = re.search(r"about (\S+) steps of|^(\S+) load steps", said, re.M)
     time = re.search(r"^estimated time .*?(?:to|more than) ([^(\n]+)", said, re.M)
     if not time:
-        return Cost(kind.sizes[-1], None, None, None, "nothing, as strut --check of the coarsest grid tells no time")
-    parts = re.findall(r"([\d.]+) (h|min|s)\b", time[1])
-    return Cost(kind.sizes[-1], points and float(points[1].replace(",", "")), steps and float(steps[1] or steps[2]),
-                sum(float(x) * {"h": 3600, "min": 60, "s": 1}[unit] for x, unit in parts),
-                "strut --check of the coarsest grid (its longer time)")
+        return kind.sizes[-1], (None, None, None), "nothing, as strut --check of the coarsest grid tells no time"
+    seconds = sum(float(x) * {"h": 3600, "min": 60, "s": 1}[unit] for x, unit in re.findall(r"([\d.]+) (h|min|s)\b", time[1]))
+    numbers = collect.last_of("points", said), steps and float(steps[1] or steps[2]), seconds
+    return kind.sizes[-1], numbers, "strut --check of the coarsest grid (its longer time)"
 
 
 def plan_of(name, kinds, ranks):
@@ -178,11 +161,12 @@ def plan_of(name, kinds, ranks):
     left, bases = [], []
     largest = max(size for kind in kinds for size in kind.sizes)
     for kind in kinds:
-        cost = cost_of(kind, ranks)
-        bases.append(cost.basis)
+        known_size, known, basis = cost_of(kind, ranks)
+        bases.append(basis)
         for size, case in reversed(list(zip(kind.sizes, kind.cases))):
             case.cost = (largest / size)**4
-            points, steps, seconds = cost.at(size, source.is_equilibrium(case.source))
+            powers = 3, 0 if source.is_equilibrium(case.source) else 1, 4  # iterations grow, not load steps
+            points, steps, seconds = (value and value * (known_size / size)**power for value, power in zip(known, powers))
             time = duration(seconds)
             if case.done():
                 facts = collect.facts_of(case)

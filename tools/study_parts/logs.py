@@ -1,19 +1,24 @@
-"""The warnings in the logs of runs: each is told once, with the number of runs that it stands in."""
+"""The logs of runs, and the warnings in them: each is told once, with the number of runs that it stands in."""
 import os
 import re
 
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d[\d.,]*(?:e[-+]?\d+)?")
 
 
+def text_of(path):
+    """What a log says so far; nothing if there is none."""
+    try:
+        with open(path, errors="replace") as file:
+            return file.read()
+    except OSError:
+        return ""
+
+
 def warnings_of(case):
     """{text without numbers: the first line}. A run that went on says the same again, perhaps of another time."""
-    if not os.path.isfile(case.log):
-        return {}
     found = {}
-    with open(case.log, errors="replace") as file:
-        for line in file:
-            if line.startswith("WARNING: "):
-                found.setdefault(NUMBER.sub("#", line), line.strip().removeprefix("WARNING: "))
+    for line in re.findall("^WARNING: (.*)", text_of(case.log), re.M):
+        found.setdefault(NUMBER.sub("#", line), line.strip())
     return found
 
 

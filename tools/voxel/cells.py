@@ -1,4 +1,4 @@
-"""Makes nodes, elements and the node sets of the box's faces from solid voxels."""
+"""Makes nodes, elements and the node sets of the box's faces from solid voxels, or the stream of those that strut-mesh gathers."""
 import numpy as np
 
 # Corners of a voxel in the order of Exodus' HEX8, as steps (z, y, x).
@@ -53,3 +53,14 @@ def hexahedra(solid, cell, origin, block):
         elements[:, i] = number[first + np.ravel_multi_index(corner, shape)] - 1
     places = np.nonzero(taken)
     return coordinates(places, cell, origin, 0), (block, "HEX8", elements, None), places, solid.shape
+
+
+def stream_of(name, solid, cell, origin, factor, smallest, fills=None, thickness=None):
+    """The parts of the stream that strut-mesh --arrays reads (tools/mesh/arrays.hpp): the solid voxels of an array (z, y, x), to be
+    gathered in cells of factor^3. fills: the solid fraction of each; thickness: of struts and walls, in voxels."""
+    places = np.nonzero(solid)
+    words = [name, len(places[0]), *solid.shape[::-1], factor, smallest, "solid" if fills is None else "grey"]
+    yield f"strut-mesh arrays 1\nnodes 0\nvoxels {' '.join(map(str, words))}{'' if thickness is None else f' {thickness:.6g}'}\n".encode()
+    for array, form in (([*cell, *origin], "<f8"), (np.stack(places[::-1], axis=1), "<i4"), ([] if fills is None else fills[places], "<f8")):
+        yield np.ascontiguousarray(array, form).reshape(-1).view(np.uint8)
+    yield b"end\n"

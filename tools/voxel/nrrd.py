@@ -1,6 +1,7 @@
 """Reads NRRD (teem.sourceforge.net/nrrd/format.html): an array (z, y, x) and the spacing (x, y, z) of the file. VTK's
 reader interprets compressed numbers and text as this machine's, whatever the header says, and thin images as colors."""
 import bz2
+import math
 import os
 import re
 import zlib
@@ -25,15 +26,14 @@ def read(path):
             fail(f"{path} cannot be read as .nrrd image: it does not begin with NRRD")
         fields, files = header_of(path, file)
         rest = file.read()
-    if files:
-        parts = [unpacked(name, fields, content_of(path, name)) for name in files]
-    elif path.lower().endswith(".nhdr"):
+    if not files and path.lower().endswith(".nhdr"):
         fail(f"{path}: a header alone, expected a field 'data file'")
-    else:
-        parts = [unpacked(path, fields, rest)]
-    directions = directions_of(path, fields)
+    sizes = sizes_of(path, fields)
+    parts = [unpacked(name, fields, content_of(path, name), sizes) for name in files] or [unpacked(path, fields, rest, sizes)]
+    directions = directions_of(path, fields, sizes)
+    across = axes_of(fields, sizes, directions)
     axes = directions and [d for d in directions if d is not None]
-    return orientation.oriented(path, joined(path, fields, parts), spacing_of(path, fields), axes)
+    return orientation.oriented(path, joined(path, sizes, across, parts), spacing_of(path, fields, axes, across), axes)
 
 
 def header_of(path, file):
@@ -80,7 +80,7 @@ def content_of(path, name):
         return file.read()
 
 
-def unpacked(path, fields, content):
+def unpacked(path, fields, content, sizes):
     """The numbers of one file."""
     code = TYPES.get(fields["type"].lower())
     if code is None:
@@ -103,7 +103,7 @@ def unpacked(path, fields, content):
         fail(f"{path} is damaged: {error}")
     kind = np.dtype(order_of(path, fields, code) + code)
     skip = whole(path, fields, "byte skip")
-    content = content[-count_of(path, fields) * kind.itemsize if skip == -1 else skip:]
+    content = content[-math.prod(sizes) * kind.itemsize if skip == -1 else skip:]
     if len(content) % kind.itemsize:
         fail(f"{path} is damaged: {len(content)} bytes are no whole number of numbers of {kind.itemsize} bytes")
     return np.frombuffer(content, kind).astype(code)
@@ -159,16 +159,11 @@ def sizes_of(path, fields):
     return sizes
 
 
-def count_of(path, fields):
-    return int(np.prod(sizes_of(path, fields), dtype=object))
-
-
-def joined(path, fields, parts):
-    sizes, values = sizes_of(path, fields), np.concatenate(parts)
-    if len(values) != count_of(path, fields):
+def joined(path, sizes, across, parts):
+    values = np.concatenate(parts)
+    if len(values) != math.prod(sizes):
         fail(f"{path} is damaged: it has {len(values)} numbers, expected {' x '.join(map(str, sizes))}")
-    across = axes_of(path, fields, sizes)
-    numbers = int(np.prod([n for n, a in zip(sizes, across) if not a], dtype=object))
+    numbers = math.prod(n for n, a in zip(sizes, across) if not a)
     if numbers != 1:
         fail(f"{path} has {numbers} numbers a voxel (colors?), expected one")
     kept = [n for n, a in zip(sizes, across) if a]
@@ -177,9 +172,8 @@ def joined(path, fields, parts):
     return values.reshape((kept + [1])[:3][::-1])
 
 
-def axes_of(path, fields, sizes):
+def axes_of(fields, sizes, directions):
     """True for each spatial axis."""
-    directions = directions_of(path, fields)
     if directions is not None:
         return [d is not None for d in directions]
     kinds = fields.get("kinds", "").lower().split()
@@ -188,7 +182,7 @@ def axes_of(path, fields, sizes):
     return [True] * len(sizes) if len(sizes) <= 3 else [False] * (len(sizes) - 3) + [True] * 3
 
 
-def directions_of(path, fields):
+def directions_of(path, fields, sizes):
     """A vector for each spatial axis, None for others; None without the field."""
     text = fields.get("space directions")
     if text is None:
@@ -198,23 +192,21 @@ def directions_of(path, fields):
                  for word in re.findall(r"none|\([^)]*\)", text)]
     except ValueError:
         found = []
-    if len(found) != len(sizes_of(path, fields)) or len({len(d) for d in found if d is not None}) != 1:
+    if len(found) != len(sizes) or len({len(d) for d in found if d is not None}) != 1:
         fail(f"{path}: space directions '{text}', expected a vector or 'none' for each axis")
     return found
 
 
-def spacing_of(path, fields):
+def spacing_of(path, fields, axes, across):
     """None if the file has no spacing."""
-    directions = directions_of(path, fields)
-    if directions is None:
+    if axes is None:
         if not fields.get("spacings"):
             return None
         numbers = numbers_in(fields["spacings"], float)
-        if len(numbers) != len(sizes_of(path, fields)):
+        if len(numbers) != len(across):
             fail(f"{path}: spacings '{fields['spacings']}', expected a number for each axis")
-        found = [abs(n) for n, across in zip(numbers, axes_of(path, fields, sizes_of(path, fields))) if across]
+        found = [abs(n) for n, a in zip(numbers, across) if a]
     else:
-        axes = [d for d in directions if d is not None]
         found = [float(np.linalg.norm(d)) for d in axes]
         oblique = np.abs(np.inner(axes, axes)) > OBLIQUE * np.outer(found, found)
         if np.triu(oblique, 1).any():

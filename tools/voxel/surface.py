@@ -6,6 +6,7 @@ import numpy as np
 from scipy import ndimage
 
 from images import Image
+from solid import fills_of
 from strut_tools import captured, check_input, fail
 
 BAND = 3  # voxels from the surface within which the distance is that of the triangles
@@ -105,8 +106,9 @@ def pieces_of(surface):
 
 
 def signs_of(path, pieces, low, edge, shape):
-    """+1 for each piece that bounds a body, -1 for a cavity; how many were turned; and bodies_in(). A piece that is
-    wound the other way is a cavity in a body, but outside all of them a body, together with what is within it."""
+    """+1 for each piece that bounds a body, -1 for a cavity; how many were turned; and in how many bodies
+    the middle of each voxel (z, y, x) is. A piece that is wound the other way is a cavity in a body, but outside all of them a body,
+    together with what is within it."""
     count, turn, signs, turned = np.zeros(shape[::-1], np.int32), np.ones(shape[::-1], np.int8), [], 0
     for piece in pieces:
         part, inside = part_inside(piece, low, edge, shape)
@@ -123,21 +125,16 @@ def signs_of(path, pieces, low, edge, shape):
     return signs, turned, count
 
 
-def bodies_in(pieces, signs, low, edge, shape):
-    """In how many bodies the middle of each voxel (z, y, x) is; the surface of a cavity takes one away."""
-    count = np.zeros(shape[::-1], np.int32)
-    for piece, sign in zip(pieces, signs):
-        part, inside = part_inside(piece, low, edge, shape)
-        count[part] += sign * inside
-    return count
-
-
 def all_around(pieces, signs, low, edge, shape):
     """True for each voxel whose middle has solid on all sides, though it may be on a triangle: inside a second body, or where
     two bodies touch."""
     found = np.ones(shape[::-1], bool)
     for corner in itertools.product((-ASIDE, ASIDE), repeat=3):
-        found &= bodies_in(pieces, signs, low + edge * np.array(corner), edge, shape) > 0
+        count = np.zeros(shape[::-1], np.int32)
+        for piece, sign in zip(pieces, signs):
+            part, inside = part_inside(piece, low + edge * np.array(corner), edge, shape)
+            count[part] += sign * inside
+        found &= count > 0
     return found
 
 
@@ -198,10 +195,5 @@ def moved_to(values, edge, share, in_part):
     low, high = float(values.min()) - edge, float(values.max()) + edge
     for _ in range(60):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if fills_of(values - np.float32(middle), edge).mean(dtype=float) > share else (low, middle)
+        low, high = (middle, high) if fills_of(values, middle - 0.5 * edge, middle + 0.5 * edge).mean(dtype=float) > share else (low, middle)
     return values - np.float32(high), -high
-
-
-def fills_of(values, edge):
-    """The solid part of each voxel, by a plane across its middle."""
-    return np.clip(0.5 + values / np.float32(edge), 0, 1)

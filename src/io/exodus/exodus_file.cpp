@@ -13,7 +13,6 @@
 #include "base/errors.hpp"
 #include "io/exodus/exodus_words.hpp"
 #include "io/netcdf/classic_netcdf.hpp"
-#include "io/netcdf/wide_netcdf.hpp"
 
 namespace strut::io {
 
@@ -95,18 +94,19 @@ int created(const fs::path& path, int mode) {
   return ex_create(path.c_str(), mode | EX_CLOBBER | EX_ALL_INT64_API, &word_size, &file_word_size);
 }
 
-// Creates the classic format with 64-bit sizes (CDF-5), which Exodus before version 7 does not create, but can extend.
+// Creates the classic format with 64-bit sizes (CDF-5), which Exodus before version 7 does not name, but leaves to
+// netCDF.
 int created_with_64_bit_sizes(const fs::path& path) {
 #ifdef EX_64BIT_DATA
   return created(path, EX_64BIT_DATA);
 #else
-  const int handle = created(path, EX_LARGE_MODEL);
-  if (handle < 0) return handle;
-  ex_close(handle);
-  widen(path);
-  int word_size = sizeof(double), file_word_size = 0;
-  float version = 0;
-  return ex_open(path.c_str(), EX_WRITE | EX_ALL_INT64_API, &word_size, &file_word_size, &version);
+  int usual = 0;
+  nc_set_default_format(NC_FORMAT_64BIT_DATA, &usual);
+  const int handle = created(path, EX_NORMAL_MODEL | EX_NOCLASSIC);  // neither names a format
+  nc_set_default_format(usual, nullptr);
+  const int large = 1;  // components of vectors are variables of their own, as by EX_LARGE_MODEL
+  const int code = handle < 0 ? handle : nc_put_att_int(handle, NC_GLOBAL, "file_size", NC_INT, 1, &large);
+  return code < 0 ? code : handle;
 #endif
 }
 

@@ -4,7 +4,6 @@
 #include <fstream>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/numbers.hpp"
@@ -23,21 +22,15 @@ struct Line {
   double volume = 0;
 };
 
-// True if the whole word is a finite number: "1.0e-3", but neither "1,5" nor "nan".
-bool read_number(const std::string& word, double& value) {
-  std::istringstream stream(word);
-  return stream >> value && stream.eof() && std::isfinite(value);
-}
-
 // Parses a line; returns the error, or "".
 std::string parse(const std::string& text, Line& line) {
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
+  const std::vector<std::string> words = to_words(text);
   if (words.size() != 5) return "expected 5 columns (x y z block volume), found " + std::to_string(words.size());
   double numbers[5] = {};
   for (int i = 0; i < 5; ++i) {
-    if (!read_number(words[i], numbers[i])) return "'" + words[i] + "' is not a finite number";
+    const auto number = to_finite(words[i]);
+    if (!number) return "'" + words[i] + "' is not a finite number";
+    numbers[i] = *number;
   }
   if (numbers[3] != std::floor(numbers[3]) || std::abs(numbers[3]) > 1e9) {
     return "block '" + words[3] + "' is not an integer";
@@ -76,9 +69,7 @@ class TextFile {
  private:
   // A line that names the columns, as PeriLab's lists begin; they must be ours. Throws Error if they are not.
   bool is_header(const std::string& content) const {
-    std::istringstream stream(content);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) words.push_back(word);
+    const std::vector<std::string> words = to_words(content);
     if (words[0] != "header:") return false;
     if (words == std::vector<std::string>{"header:", "x", "y", "z", "block_id", "volume"}) return true;
     const bool is_flat = std::ranges::find(words, "z") == words.end();

@@ -5,6 +5,7 @@ import subprocess
 import numpy as np
 from exodus import gather_voxels, write_mesh
 from strut_tools import history_of, with_core_seconds
+from voxel.cells import stream_of
 from work_precision_parts.runs import method_keys, parameter, section, share_of_steps
 
 from . import voxels
@@ -20,12 +21,11 @@ def cells(path, body, spacing, placement):
     voxel, half = spacing / PARTS, int(np.ceil(body.reach() / spacing))
     counts = np.array([2 * half, 2 * half, round(body.height / spacing) + 1])
     low = spacing * np.array([placement.offset[0] - half, placement.offset[1] - half, -counts[2] / 2])
-    fine, found = counts * PARTS, []
+    fine = counts * PARTS
     j, i = np.meshgrid(np.arange(fine[1]), np.arange(fine[0]), indexing="ij")
-    for k in range(fine[2]):
-        layer = np.stack([i.ravel(), j.ravel(), np.full(i.size, k)], 1)
-        found.append(layer[body.solid(low + voxel * (layer + 0.5), placement.turn)])
-    gather_voxels(path, "body", np.concatenate(found), fine, [voxel] * 3, low, PARTS, SMALLEST)
+    solid = [body.solid(low + voxel * (np.stack([i.ravel(), j.ravel(), np.full(i.size, k)], 1) + 0.5), placement.turn).reshape(i.shape)
+             for k in range(fine[2])]
+    gather_voxels(path, stream_of("body", np.array(solid), [voxel] * 3, low, PARTS, SMALLEST))
 
 
 def mesh(path, body, method, spacing, placement):

@@ -107,23 +107,12 @@ def voxels(solid, spacing, origin=(0, 0, 0), name="foam", gather=None, smallest=
     checked(name)
     filled = solid.transpose()  # z, y, x, as the tools have it
     if gather:
-        return gathered(filled, edges, lower, name, gather, smallest, is_grey)
+        return _core.Mesh.of_voxels(b"".join(cells.stream_of(name, filled, edges, lower, gather, smallest, filled if is_grey else None)))
     try:
         nodes, ((_, _, elements, _),), sets = cells.mesh_of(filled > 0, edges, lower, "hex", name)
     except OverflowError as error:
         raise _core.Error(f"voxels: {error}") from None
     return mesh(nodes, {name: elements}, sets)
-
-
-def gathered(filled, edges, origin, name, count, smallest, is_grey):
-    """By the stream that strut-mesh --arrays reads."""
-    places = np.nonzero(filled)
-    shape = " ".join(map(str, filled.shape[::-1]))
-    head = f"strut-mesh arrays 1\nnodes 0\nvoxels {name} {len(places[0])} {shape} {count} {smallest} {'grey' if is_grey else 'solid'}\n"
-    parts = [head.encode(), np.array([*edges, *origin], "<f8").tobytes(), np.stack(places[::-1], axis=1).astype("<i4").tobytes()]
-    if is_grey:
-        parts.append(filled[places].astype("<f8").tobytes())
-    return _core.Mesh.of_voxels(b"".join([*parts, b"end\n"]))
 
 
 def recipe(file):
