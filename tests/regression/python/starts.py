@@ -224,6 +224,20 @@ class Starts(InFolder):
         os.remove("first.restart")
         self.assertGoesOn(whole, strut.run(second, continued=True))
 
+    def test_a_run_that_has_started_between_sides_that_moved_is_continued_with_the_same_bits(self):
+        """The mesh does not fit between the sides at the initial time: they have come nearer by a tenth of forty spacings."""
+        mesh = strut.voxels(np.ones((40, 3, 3), bool), SPACING, name="block")
+        soft = {"Material Model": "Elastic Correspondence", "Density": 1000.0, "Young's Modulus": 1e9, "Poisson's Ratio": 0.3}
+        sides = {"Type": "Periodic Sides", "Coordinate": "x", "Lower": 0.0, "Upper": 40 * SPACING, "Stretch": "1 - 2000*t"}
+        flow = {"Type": "Initial Velocity", "Node Set": "all", "Coordinate": "x", "Value": "-2000*x"}
+        deck = but(block.deck(Materials={"metal": soft}), Boundary_Conditions={"sides": sides, "flow": flow},
+                   Solver={"Final Time": 5e-5}, History={"Frequency": 1})
+        first = strut.run(but(deck, Restart={"Filename": "first.restart"}), mesh)
+        second = start(but(deck, Solver={"Final Time": 6e-5}), "first.restart", first.time, Restart={"Filename": "second.restart"})
+        whole = strut.run(second, mesh)
+        ended(second, 3, mesh, "second.restart")
+        self.assertGoesOn(whole, strut.run(second, mesh, continued=True))
+
     def test_tools_that_meet_after_a_run_goes_on_are_told(self):
         """Looked at in every second step: apart in step 100, in a checkpoint of step 101, and meeting before step 102."""
         box = lambda x, **more: {"Type": "Rigid Box", "Lower Corner": [x, 0, 0], "Upper Corner": [x + 1e-3, 1e-3, 1e-3], **more}
