@@ -483,6 +483,18 @@ class Starts(InFolder):
                 self.assertIn(told, log)
                 self.assertEqual("inside of the tool" in log, told == inside, log)
 
+    def test_a_tool_that_flies_is_looked_at_where_it_is(self):
+        """The deck has it 1.2 mm above the cells, which it has reached: at its speed it would not in the time that is left."""
+        hammer = {"Type": "Rigid Plane", "Point": [0, 0, 9.2 * SPACING], "Normal": [0, 0, -1], "Mass": 1e-6, "Speed Z": -500.0}
+        deck = block.deck(History={"Frequency": 1, "Variables": {"Reaction_Z(hammer)": True}})
+        deck = but(deck, Boundary_Conditions={"foot": deck["Boundary Conditions"]["foot"], "hammer": hammer})
+        self.assertIn("the tool 'hammer' is 0.0012 m from all points", strut.Run(deck, block.mesh()).log)
+        first = but(deck, Solver={"Final Time": 2.5e-6}, Restart={"Filename": "first.restart"})
+        first = strut.run(first, block.mesh())
+        run = strut.run(start(but(deck, Solver={"Final Time": 3e-6}), "first.restart", first.time), block.mesh())
+        self.assertNotEqual(run.history["Reaction_Z(hammer)"][1], 0)
+        self.assertNotIn("from all points", run.log)
+
     def test_what_cannot_start_is_refused_by_name(self):
         deck = block.deck(Output=block.output("first.e"))
         ended(deck, 5, block.mesh())
