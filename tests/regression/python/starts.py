@@ -495,6 +495,21 @@ class Starts(InFolder):
         self.assertNotEqual(run.history["Reaction_Z(hammer)"][1], 0)
         self.assertNotIn("from all points", run.log)
 
+    def test_a_broken_body_on_cubes_is_not_told_to_be_on_other_cells(self):
+        """Its bonds along x have broken, so that its points no longer see the two faces across x that are near."""
+        cubes = strut.voxels(np.ones((5, 5, 5), bool), SPACING, name="block")
+        solid = {"Material Model": "Elastic", "Density": 2700.0, "Young's Modulus": 70e9, "Poisson's Ratio": 0.25}
+        pull = {"Type": "Initial Velocity", "Node Set": "all", "Coordinate": "x", "Value": "15000*x"}
+        deck = but(block.deck(Materials={"metal": solid}), Boundary_Conditions={"pull": pull}, Solver={"Final Time": 1e-7, "Verlet": {"Fixed dt": 1e-8}},
+                   Damage_Models={"breaks": {"Damage Model": "Critical Stretch", "Critical Stretch": 1e-3}},
+                   Blocks={"block": {"Block Names": "block", "Material": "metal", "Horizon Factor": 2.1, "Damage Model": "breaks"}},
+                   History={"Frequency": 1, "Variables": {"Mean_Damage": True}})
+        first = strut.run(but(deck, Restart={"Filename": "first.restart"}), cubes)
+        self.assertGreater(first.history["Mean_Damage"][-1], 0.05)
+        run = strut.Run(start(but(deck, Solver={"Final Time": 2e-7}), "first.restart", first.time), cubes)
+        for log in (first.log, run.log):
+            self.assertNotIn("cubic lattice", log)
+
     def test_what_cannot_start_is_refused_by_name(self):
         deck = block.deck(Output=block.output("first.e"))
         ended(deck, 5, block.mesh())
