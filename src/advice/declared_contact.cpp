@@ -57,7 +57,7 @@ std::string undeclared_contacts(const Situation& situation) {
       const auto time = first_meeting(situation, a, b);
       if (!time) continue;
       text << "WARNING: blocks " << names[a] << " and " << names[b] << " meet at about t = " << situation.start + *time
-           << " s and will pass through each other: no contact between them is "
+           << " s, if they go on as at the start, and will pass through each other: no contact between them is "
            << "declared (Contact > Interactions)\n";
     }
   }

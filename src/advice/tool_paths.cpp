@@ -58,14 +58,6 @@ Extent ways_of(const RigidTool& tool, double start, double duration) {
   return ways;
 }
 
-// The same for points, from their velocities (m/s) over the run.
-Extent ways_of(const Trajectory& block, double duration) {
-  Extent ways(Vector::Zero());
-  ways.extend(Vector(duration * block.velocities.min()));
-  ways.extend(Vector(duration * block.velocities.max()));
-  return ways;
-}
-
 Extent moved(const Extent& box, const Extent& by) { return {box.min() + by.min(), box.max() + by.max()}; }
 
 struct Meeting {
@@ -113,7 +105,7 @@ Thin thin(const HalfSpace&, const RigidTool&, const Trajectory&, const Vector&, 
 
 Thin thin(const Box& box, const RigidTool& tool, const Trajectory& block, const Vector& spacings, double start,
           double duration) {
-  const Extent tool_ways = ways_of(tool, start, duration), block_ways = ways_of(block, duration);
+  const Extent tool_ways = ways_of(tool, start, duration), &block_ways = block.ways;
   Extent at_start(box.lower, box.upper);
   at_start.translate(tool.offset(start));
   Extent swept = moved(block.places, block_ways);
@@ -131,7 +123,7 @@ Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, 
   const Vector across = (1 - roll.axis.array().square()).max(0).sqrt();  // parts of the axes across that of the roll
   const double spacing = across.cwiseProduct(spacings).maxCoeff();
   if (2 * roll.radius >= least_width * spacing) return {};
-  const Extent swept = moved(block.places, ways_of(block, duration));
+  const Extent swept = moved(block.places, block.ways);
   const double around = 0.5 * swept.diagonal().norm() + spacing;
   for (int k = 0; k <= looks; ++k) {
     const Vector from = swept.center() - tool.offset(start + duration * k / looks);
