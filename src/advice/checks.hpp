@@ -176,7 +176,8 @@ std::string filled_tools(const Situation& situation);
 // ---- tool_paths.cpp
 
 // A line for each tool that is initially more than a spacing away from all of its points: when it first
-// touches one, or the warning that it touches none. It is a forecast: motion by loads and impacts is not considered.
+// touches one, or the warning that it touches none; no warning if a prescribed motion changes later. It is a forecast:
+// motion by loads and impacts is not considered.
 std::string apart_tools(const Situation& situation);
 
 // A warning for each tool that is across one periodic side at some time: it has no image at the other.

@@ -41,14 +41,16 @@ std::string sudden_failure(const Situation& situation) {
 
 namespace {
 
-// Collective. The layers of the plates of a block on a lattice along its axes, if points see both of their faces; 0 for
-// other blocks.
-int layers_of_plates(const Domain& domain, const MaterialBlock& block, const BlockHorizons& of_block) {
+// Collective. The layers of the plates of a block on a lattice along its axes, if whole families see both of their
+// faces; 0 for other blocks.
+int layers_of_plates(const Body& body, const MaterialBlock& block, const BlockHorizons& of_block) {
+  const Domain& domain = body.domain;
   const int reach = static_cast<int>(of_block.largest / of_block.spacing * (1 + 1e-9));
   if (reach < 1) return 0;
   const int most = 2 * reach;
   std::vector<double> counts(3 * most + 1, 0);  // of points that see so many layers along x, y, z; of all
   for (const int i : block.points) {
+    if (body.has_lost_bonds(i)) continue;                    // it sees a crack
     Vector ahead = Vector::Zero(), behind = Vector::Zero();  // spacings
     domain.families.for_each(i, [&](int j) {
       const Vector xi = (domain.reference(j) - domain.reference(i)) / of_block.spacing;
@@ -90,7 +92,7 @@ std::string cracks_of_plates(const Situation& situation) {
     const BlockHorizons& of_block = body.domain.blocks[b];
     const auto& damage = block.material.damage;
     if (!damage || !(damage->fracture_energy > 0) || !block.is_ordinary() || !(of_block.spacing > 0)) continue;
-    const int layers = layers_of_plates(body.domain, block, of_block);
+    const int layers = layers_of_plates(body, block, of_block);
     const double part = layers > 0 ? part_in_plates(body, b, layers) : 1;
     if (std::abs(part - 1) < worth_saying) continue;
     text << "block '" << block.name << "': in plates of " << layers << (layers > 1 ? " layers" : " layer")

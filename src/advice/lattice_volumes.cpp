@@ -81,7 +81,7 @@ std::string volumes_off_lattices(const Situation& situation) {
   std::vector<int> points;
   double most = 0, volume = 0, expected = 0;  // of the point that is farthest off
   for (int i = 0; i < body.owned(); ++i) {
-    if (!is_bare(domain.cloud, i)) continue;
+    if (!is_bare(domain.cloud, i) || body.has_lost_bonds(i)) continue;
     const LatticeCell cell = cell_around(domain, i);
     if (!is_off(cell, domain.volume(i))) continue;
     points.push_back(i);

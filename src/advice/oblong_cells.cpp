@@ -35,10 +35,10 @@ bool has_parts_of_cells(const Domain& domain, int i) {
 }
 
 // 3 K/tr K of an ordinary point, K = Σ ω V ξ⊗ξ: by how much its dilatation (3/m) Σ ω V |ξ| e counts strain along each
-// direction. Zero where a surface is near.
+// direction. Zero where a surface is near, or bonds are broken, which then tell nothing of the lattice.
 Tensor counts_of_strain(const Body& body, int i) {
   const Tensor inverse = to_tensor(body.shape_inverse[i]);
-  if (!(inverse.trace() > 0) || has_parts_of_cells(body.domain, i)) return Tensor::Zero();
+  if (body.has_lost_bonds(i) || !(inverse.trace() > 0) || has_parts_of_cells(body.domain, i)) return Tensor::Zero();
   const Tensor K = inverse.inverse();
   const Tensor axes = Eigen::SelfAdjointEigenSolver<Tensor>(K).eigenvectors();
   for (int c = 0; c < 3; ++c) {

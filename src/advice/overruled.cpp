@@ -20,7 +20,6 @@ namespace strut {
 
 namespace {
 
-constexpr int looks = 64;         // samples of the paths of tools and points, and as many where these turn or jump
 constexpr double deep = 1e-3;     // spacings: accuracy of positions
 constexpr double along = 1e-3;    // component of a normal along a held direction
 constexpr double opposite = 0.9;  // the same for a symmetry plane, whose adjacent cells a tool may push obliquely
@@ -81,24 +80,11 @@ std::pair<Vector, bool> place_of(const Held& held, int i, const Domain& domain) 
   return {is_face ? Vector(X - off * held.direction) : X, is_face};
 }
 
-// Displacements of points by conditions up to `time`; velocities are integrated from one call to the next.
-void move_on(const Conditions& conditions, const Domain& domain, double time, double step, std::vector<Vector>& ways) {
-  conditions.visit([&]<class One>(const One& one) {
-    if constexpr (std::is_same_v<One, PrescribedMotion>) {
-      for (const int i : one.points) {
-        const Vector X = domain.reference(i);
-        const double value = one.value.evaluate(X, one.is_velocity ? time - 0.5 * step : time);
-        for (const int c : one.components) ways[i][c] = one.is_velocity ? ways[i][c] + step * value : value;
-      }
-    }
-  });
-}
-
 // The times at which paths are looked at, from the start on, s. Collective.
 std::vector<double> times_of(const Situation& situation, const std::vector<Held>& held) {
   const double start = situation.start, end = start + situation.duration;
   const Body& body = situation.scene.body;
-  std::vector<double> changes, times{start};
+  std::vector<double> changes;
   const auto add = [&](const Function& value, const std::vector<int>& points) {
     std::ranges::copy(changes_of(value, where(points, body), start, end), std::back_inserter(changes));
   };
@@ -111,11 +97,7 @@ std::vector<double> times_of(const Situation& situation, const std::vector<Held>
     const auto* motion = std::get_if<PrescribedMotion>(&situation.deck.conditions[one.condition].kind);
     if (motion) add(motion->value, one.points);
   }
-  std::ranges::sort(changes);
-  std::ranges::copy(thinned(changes, looks), std::back_inserter(times));
-  for (int k = 1; k <= looks; ++k) times.push_back(start + situation.duration * k / looks);
-  std::ranges::sort(times);
-  return times;
+  return looks_at(std::move(changes), start, situation.duration);
 }
 
 // For each tool and condition: the time of the first contact, and the points met.

@@ -106,7 +106,7 @@ std::string flat_families(const Situation& situation) {
     for (const int i : body.blocks[b].points) {
       if (body.blocks[b].is_ordinary() || body.blocks[b].is_quadratic()) break;
       const LatticeFamilies* stencil = body.domain.families.lattice(i);
-      if (stencil && stencil->spans_space(i)) continue;
+      if ((stencil && stencil->spans_space(i)) || body.has_lost_bonds(i)) continue;  // broken ones are not of the mesh
       if (flatness(body.domain, i) > very_flat) flat[b].push_back(i);
     }
   }

@@ -2,10 +2,12 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <type_traits>
 
 #include "advice/checks.hpp"
 #include "conditions/crossing.hpp"
 #include "conditions/prototype.hpp"
+#include "setup/changes_in_time.hpp"
 #include "topology/cell_edges.hpp"
 
 namespace strut {
@@ -44,6 +46,31 @@ std::optional<double> first_touch(const RigidTool& tool, const Body& body, const
   return std::nullopt;
 }
 
+// True if a value is that of the start throughout the run, or a displacement goes on at the speed of the start.
+bool goes_on(const OfTime& of_time, bool is_velocity, double start, double duration) {
+  constexpr double alike = 1e-6;
+  const double first = of_time(start), moment = first_moment * duration;
+  const double speed = is_velocity ? 0 : (of_time(start + moment) - first) / moment;
+  for (int k = 1; k <= looks; ++k) {
+    const double after = duration * k / looks, value = of_time(start + after);
+    const double off = std::abs(value - first - speed * after);
+    if (off > alike * std::max(std::abs(value), std::abs(first))) return false;
+  }
+  return true;
+}
+
+// Collective. True if a prescribed motion is not that of the start throughout the run.
+bool change_later(const Scene& scene, double start, double duration) {
+  bool any = false;
+  scene.conditions.visit([&]<class One>(const One& one) {
+    if constexpr (std::is_same_v<One, PrescribedMotion>) {
+      at_corners(one.value, where(one.points, scene.body),
+                 [&](const OfTime& of_time) { any = any || !goes_on(of_time, one.is_velocity, start, duration); });
+    }
+  });
+  return any;
+}
+
 // ---- Thin tools ----------------------------------------------------------------------------------------------------
 
 using Extent = Eigen::AlignedBox3d;
@@ -55,14 +82,6 @@ constexpr double as_good_as_none = 1e-6;
 Extent ways_of(const RigidTool& tool, double start, double duration) {
   Extent ways;
   for (int k = 0; k <= looks; ++k) ways.extend(Vector(tool.offset(start + duration * k / looks) - tool.offset(start)));
-  return ways;
-}
-
-// The same for points, from their velocities (m/s) over the run.
-Extent ways_of(const Trajectory& block, double duration) {
-  Extent ways(Vector::Zero());
-  ways.extend(Vector(duration * block.velocities.min()));
-  ways.extend(Vector(duration * block.velocities.max()));
   return ways;
 }
 
@@ -113,7 +132,7 @@ Thin thin(const HalfSpace&, const RigidTool&, const Trajectory&, const Vector&, 
 
 Thin thin(const Box& box, const RigidTool& tool, const Trajectory& block, const Vector& spacings, double start,
           double duration) {
-  const Extent tool_ways = ways_of(tool, start, duration), block_ways = ways_of(block, duration);
+  const Extent tool_ways = ways_of(tool, start, duration), &block_ways = block.ways;
   Extent at_start(box.lower, box.upper);
   at_start.translate(tool.offset(start));
   Extent swept = moved(block.places, block_ways);
@@ -131,7 +150,7 @@ Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, 
   const Vector across = (1 - roll.axis.array().square()).max(0).sqrt();  // parts of the axes across that of the roll
   const double spacing = across.cwiseProduct(spacings).maxCoeff();
   if (2 * roll.radius >= least_width * spacing) return {};
-  const Extent swept = moved(block.places, ways_of(block, duration));
+  const Extent swept = moved(block.places, block.ways);
   const double around = 0.5 * swept.diagonal().norm() + spacing;
   for (int k = 0; k <= looks; ++k) {
     const Vector from = swept.center() - tool.offset(start + duration * k / looks);
@@ -202,18 +221,20 @@ std::string apart_tools(const Situation& situation) {
   double spacing = 0;
   for (const double h : body.domain.cloud.spacings) spacing = std::max(spacing, h);
   spacing = body.domain.communicator.max(spacing);
+  const bool later = change_later(scene, start, duration);
   std::ostringstream text;
   text.precision(3);
   for (std::size_t n = 0; n < tools.size(); ++n) {
     const double gap = smallest_gap(tools[n], body, velocities, start, 0);
     if (gap <= spacing) continue;
     const auto touch = first_touch(tools[n], body, velocities, start, duration, gap);
-    text << (touch ? "" : "WARNING: ") << "the tool '" << scene.tools[n].name << "' is " << gap
+    text << (touch || later ? "" : "WARNING: ") << "the tool '" << scene.tools[n].name << "' is " << gap
          << " m from all points at the start; by its path and the velocities of the start it touches nothing ";
     if (touch) {
       text << "before about t = " << start + *touch << " s\n";
     } else {
-      text << "until the end: only loads and impacts may bring them together; where should it stand, in m?\n";
+      text << "until the end: only loads" << (later ? ", impacts and motions that change later" : " and impacts")
+           << " may bring them together; where should it stand, in m?\n";
     }
   }
   return text.str();

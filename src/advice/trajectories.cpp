@@ -1,8 +1,11 @@
 #include "advice/trajectories.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <type_traits>
 
+#include "setup/changes_in_time.hpp"
 #include "topology/bounding_box.hpp"
 
 namespace strut {
@@ -34,18 +37,87 @@ void restrict_to_overlap(const Trajectory& low, const Trajectory& high, int axis
   restrict_to_overlap(!touch ? apart : stay ? of_points : 0, speed, from, to);
 }
 
+// True if ways along an axis are too short for the cells of a block below another one to get there.
+bool stay_apart(const Trajectory& low, const Trajectory& high, int axis) {
+  return low.cells.max()[axis] + low.ways.max()[axis] < high.cells.min()[axis] + high.ways.min()[axis];
+}
+
+template <class Visit>
+void for_each_motion(const Conditions& conditions, const Visit& visit) {
+  conditions.visit([&]<class One>(const One& one) {
+    if constexpr (std::is_same_v<One, PrescribedMotion>) visit(one);
+  });
+}
+
+// Collective. The range of each point's displacements from its place at the start.
+std::vector<Eigen::AlignedBox3d> ways_of_points(const Scene& scene, const std::vector<Vector>& velocities, double start,
+                                                double duration) {
+  const Body& body = scene.body;
+  std::vector<Eigen::AlignedBox3d> all(body.owned(), Eigen::AlignedBox3d(Vector::Zero()));
+  for (int i = 0; i < body.owned(); ++i) all[i].extend(Vector(duration * velocities[i]));
+  std::vector<double> changes;
+  bool any = false;
+  for_each_motion(scene.conditions, [&](const PrescribedMotion& one) {
+    any = true;
+    std::ranges::copy(changes_of(one.value, where(one.points, body), start, start + duration),
+                      std::back_inserter(changes));
+    for (const int i : one.points) {
+      for (const int c : one.components) all[i].min()[c] = all[i].max()[c] = 0;
+    }
+  });
+  if (!any) return all;
+  std::vector<Vector> ways(body.owned());
+  for (int i = 0; i < body.owned(); ++i) ways[i] = body.displacement(i);
+  const std::vector<double> times = looks_at(std::move(changes), start, duration);
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    move_on(scene.conditions, body.domain, times[k], times[k] - times[k - 1], ways);
+    for_each_motion(scene.conditions, [&](const PrescribedMotion& one) {
+      for (const int i : one.points) {
+        const Vector way = ways[i] - body.displacement(i);
+        for (const int c : one.components) {
+          all[i].min()[c] = std::min(all[i].min()[c], way[c]), all[i].max()[c] = std::max(all[i].max()[c], way[c]);
+        }
+      }
+    });
+  }
+  return all;
+}
+
 }  // namespace
+
+void move_on(const Conditions& conditions, const Domain& domain, double time, double step, std::vector<Vector>& ways) {
+  conditions.visit([&]<class One>(const One& one) {
+    if constexpr (std::is_same_v<One, PrescribedMotion>) {
+      for (const int i : one.points) {
+        const Vector X = domain.reference(i);
+        const double value = one.value.evaluate(X, one.is_velocity ? time - 0.5 * step : time);
+        for (const int c : one.components) ways[i][c] = one.is_velocity ? ways[i][c] + step * value : value;
+      }
+    }
+  });
+}
+
+std::vector<double> looks_at(std::vector<double> changes, double start, double duration) {
+  constexpr int looks = 64;  // evenly, and as many changes at most
+  std::ranges::sort(changes);
+  std::vector<double> times = thinned(changes, looks);
+  for (int k = 0; k <= looks; ++k) times.push_back(start + duration * k / looks);
+  std::ranges::sort(times);
+  return times;
+}
 
 std::vector<Trajectory> trajectories(const Scene& scene, double start, double duration) {
   const Domain& domain = scene.body.domain;
   std::vector<Trajectory> all(domain.cloud.block_names.size());
   const std::vector<Vector> velocities =
       predicted_velocities(scene.conditions, start, first_moment * duration, scene.body);
+  const std::vector<Eigen::AlignedBox3d> ways = ways_of_points(scene, velocities, start, duration);
   for (int i = 0; i < domain.owned; ++i) {
     Trajectory& trajectory = all[domain.cloud.blocks[i]];
     const Vector place = scene.body.current(i);
     trajectory.places.extend(place);
     trajectory.velocities.extend(velocities[i]);
+    trajectory.ways.extend(ways[i]);
     for (const Vector direction : {Vector::UnitX(), Vector::UnitY(), Vector::UnitZ()}) {
       const auto reach = [&](const Vector& to) { return reach_of_cell(domain.cloud, domain.volume(i), i, to); };
       trajectory.cells.extend(place + reach(direction) * direction);
@@ -53,7 +125,7 @@ std::vector<Trajectory> trajectories(const Scene& scene, double start, double du
     }
   }
   for (Trajectory& trajectory : all) {
-    for (Eigen::AlignedBox3d* box : {&trajectory.places, &trajectory.cells, &trajectory.velocities})
+    for (Eigen::AlignedBox3d* box : {&trajectory.places, &trajectory.cells, &trajectory.velocities, &trajectory.ways})
       *box = common_box(*box, domain.communicator);
   }
   return all;
@@ -63,6 +135,7 @@ std::optional<double> meeting_time(const Trajectory& a, const Trajectory& b, dou
   if (a.places.isEmpty() || b.places.isEmpty()) return std::nullopt;
   double from = 0, to = duration;
   for (int c = 0; c < 3; ++c) {
+    if (stay_apart(a, b, c) || stay_apart(b, a, c)) return std::nullopt;
     restrict_to_overlap(b, a, c, duration, from, to);
     restrict_to_overlap(a, b, c, duration, from, to);
   }

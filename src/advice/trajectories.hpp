@@ -1,5 +1,5 @@
-// Initial positions and velocities of blocks, for a forecast of their meetings. Blocks thrown at each other later are
-// not found.
+// Initial positions and velocities of blocks, for a forecast of their meetings, and the ways of points whose motion is
+// prescribed. Blocks thrown at each other later are not found.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,23 @@ namespace strut {
 // The first moment, over which prescribed displacements are evaluated, as a fraction of the duration.
 inline constexpr double first_moment = 1e-3;
 
-// The boxes of a block's positions, of its cells, and of its velocities, over all ranks.
+// The boxes of a block's positions, of its cells, of its velocities, and of the displacements of its points from their
+// places at the start in the whole run, over all ranks: as prescribed, else at the velocities of the start.
 struct Trajectory {
-  Eigen::AlignedBox3d places, cells, velocities;
+  Eigen::AlignedBox3d places, cells, velocities, ways;
 };
 
 // Collective. One for each block; initial and prescribed velocities of the start. `start`, `duration`: s.
 std::vector<Trajectory> trajectories(const Scene& scene, double start, double duration);
 
 // The first time in [0, duration] at which the boxes of cells, moved with these velocities, overlap; s. Those that
-// touch at the start meet only if they go on to overlap.
+// touch at the start meet only if they go on to overlap, and none whose ways are too short.
 std::optional<double> meeting_time(const Trajectory& a, const Trajectory& b, double duration);
+
+// Displacements of points by conditions up to `time`, which is `step` after the last call; velocities are integrated.
+void move_on(const Conditions& conditions, const Domain& domain, double time, double step, std::vector<Vector>& ways);
+
+// The times at which paths are looked at, from the start on, s: evenly, and some of those where they turn or jump.
+std::vector<double> looks_at(std::vector<double> changes, double start, double duration);
 
 }  // namespace strut

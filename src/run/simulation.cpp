@@ -99,7 +99,7 @@ struct Run::Parts {
   bool is_over() { return time() >= deck.solver.final_time; }
 
   void set_up(deck::Problems problems, const InMemory& in_memory, Start start);
-  void make_solver(StartState* state = nullptr);
+  void make_solver(Start start, StartState* state = nullptr);
   void open(Start start);
   void begin();
   void arrive();
@@ -142,12 +142,12 @@ void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Star
       deck, output_variables_of(deck, scene->body, scene->contact));  // checks all names before a file is replaced
   history = in_memory.history;
   writers->history.keep_rows(history);
-  make_solver(state ? &*state : nullptr);
+  make_solver(start, state ? &*state : nullptr);
   open(start);
 }
 
 // `state`: the state of another run, which the body already has.
-void Run::Parts::make_solver(StartState* state) {
+void Run::Parts::make_solver(Start start, StartState* state) {
   const deck::Solver& times = deck.solver;
   if (scene->quasi_static) {
     equilibria.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), *scene->quasi_static,
@@ -165,6 +165,8 @@ void Run::Parts::make_solver(StartState* state) {
   if (state && state->goes_on()) {
     make(CentralDifference::ToBeRestored());
     state->go_on(*steps);
+  } else if (start == Start::continued && checkpoint_exists(deck, communicator)) {
+    make(CentralDifference::ToBeRestored());  // by open(); the mesh may not fit the conditions of the initial time
   } else {
     make(times.initial_time);
     if (state) say(communicator, state->overlaps(steps->contact(), scene->body));
@@ -339,7 +341,7 @@ void Run::Parts::hand_over() {
   writers->serialize(restored, number_of_steps(), time());
   equilibria.reset();
   balance = Balance(deck);
-  make_solver();
+  make_solver(Start::anew);
   steps->go_on_from(before);
   open(Start::anew);
   begun = last = ending = saving = false;

@@ -168,7 +168,11 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
     libraries.serialize(archive);
     archive.number("dt", last_step);
     serialize(archive, body);  // the node sets are those of this deck
-    if (changes_.same_conditions) serialize_reaches(archive, scene.conditions);
+    if (changes_.same_conditions && goes_on_) {
+      serialize_tools(archive, scene.conditions, body.owned());  // advice is of where they are
+    } else if (changes_.same_conditions) {
+      serialize_reaches(archive, scene.conditions);
+    }
     if (scene.fracture) scene.fracture->serialize(archive, body);
     if (!goes_on_ && changes_.same_contact) scene.contact.serialize(archive, kinematics, 0);
   };

@@ -485,6 +485,10 @@ TEST(Tools, ThatAreApartFromAllPointsAreToldOf) {
               {"before about t = 1.97e-05 s"});
   EXPECT_EQ(told_of_tool("Rigid Plane", key("Point", "0 0 0") + key("Normal", "0 0 1")).find("the tool"),
             std::string::npos);
+  const std::string later = told_of_tool(
+      "Rigid Plane", floor, along("push", "Prescribed Velocity", "top", "z", "t > 1e-5 ? -100 : 0"), "4.7e-5");
+  expect_told(later, {"until the end: only loads, impacts and motions that change later may bring them together"});
+  EXPECT_EQ(later.find("WARNING"), std::string::npos) << later;
 }
 
 // A tool presses the points that move with it, by more than half a spacing in equilibria up to 1 s, to 1.1 s from

@@ -371,6 +371,21 @@ TEST(Contact, CrossingPathsWithoutContactAreWarnedOf) {
   EXPECT_NE(about_meeting(Simulation(folder, parts).advice.warnings), "");
 }
 
+// The gap is 2 h. They begin at 20 m/s; the speed of the start is not that of the run.
+TEST(Contact, BlocksWhosePrescribedWayEndsBeforeTheyMeetAreNotWarnedOf) {
+  const RunFolder folder;
+  Parts parts = parts_with(folder, cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0, 0, 6 * h}, 4, 4, 4, h));
+  parts.times = key("Final Time", "200e-6");
+  const auto meet = [&](const std::string& motion, const std::string& value) {
+    parts.conditions = along("press", motion, "block_2", "z", value);
+    return !about_meeting(Simulation(folder, parts).advice.warnings).empty();
+  };
+  EXPECT_FALSE(meet("Prescribed Displacement", "table(t, 0, 0, 5e-5, -1e-3)"));
+  EXPECT_FALSE(meet("Prescribed Velocity", "t > 5e-5 ? 0 : -20"));
+  EXPECT_TRUE(meet("Prescribed Displacement", "table(t, 0, 0, 5e-5, -1e-3, 6e-5, -2.2e-3, 7e-5, -1e-3)"));
+  EXPECT_TRUE(meet("Prescribed Velocity", "t > 1.2e-4 ? 0 : -20"));
+}
+
 TEST(Contact, BlocksThatTouchMeetIfTheyGoOn) {
   const RunFolder folder;
   Parts parts = parts_with(folder, cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0, 0, 4 * h}, 4, 4, 4, h));

@@ -224,6 +224,20 @@ class Starts(InFolder):
         os.remove("first.restart")
         self.assertGoesOn(whole, strut.run(second, continued=True))
 
+    def test_a_run_that_has_started_between_sides_that_moved_is_continued_with_the_same_bits(self):
+        """The mesh does not fit between the sides at the initial time: they have come nearer by a tenth of forty spacings."""
+        mesh = strut.voxels(np.ones((40, 3, 3), bool), SPACING, name="block")
+        soft = {"Material Model": "Elastic Correspondence", "Density": 1000.0, "Young's Modulus": 1e9, "Poisson's Ratio": 0.3}
+        sides = {"Type": "Periodic Sides", "Coordinate": "x", "Lower": 0.0, "Upper": 40 * SPACING, "Stretch": "1 - 2000*t"}
+        flow = {"Type": "Initial Velocity", "Node Set": "all", "Coordinate": "x", "Value": "-2000*x"}
+        deck = but(block.deck(Materials={"metal": soft}), Boundary_Conditions={"sides": sides, "flow": flow},
+                   Solver={"Final Time": 5e-5}, History={"Frequency": 1})
+        first = strut.run(but(deck, Restart={"Filename": "first.restart"}), mesh)
+        second = start(but(deck, Solver={"Final Time": 6e-5}), "first.restart", first.time, Restart={"Filename": "second.restart"})
+        whole = strut.run(second, mesh)
+        ended(second, 3, mesh, "second.restart")
+        self.assertGoesOn(whole, strut.run(second, mesh, continued=True))
+
     def test_tools_that_meet_after_a_run_goes_on_are_told(self):
         """Looked at in every second step: apart in step 100, in a checkpoint of step 101, and meeting before step 102."""
         box = lambda x, **more: {"Type": "Rigid Box", "Lower Corner": [x, 0, 0], "Upper Corner": [x + 1e-3, 1e-3, 1e-3], **more}
@@ -468,6 +482,33 @@ class Starts(InFolder):
                 log = strut.Run(second, block.mesh()).log
                 self.assertIn(told, log)
                 self.assertEqual("inside of the tool" in log, told == inside, log)
+
+    def test_a_tool_that_flies_is_looked_at_where_it_is(self):
+        """The deck has it 1.2 mm above the cells, which it has reached: at its speed it would not in the time that is left."""
+        hammer = {"Type": "Rigid Plane", "Point": [0, 0, 9.2 * SPACING], "Normal": [0, 0, -1], "Mass": 1e-6, "Speed Z": -500.0}
+        deck = block.deck(History={"Frequency": 1, "Variables": {"Reaction_Z(hammer)": True}})
+        deck = but(deck, Boundary_Conditions={"foot": deck["Boundary Conditions"]["foot"], "hammer": hammer})
+        self.assertIn("the tool 'hammer' is 0.0012 m from all points", strut.Run(deck, block.mesh()).log)
+        first = but(deck, Solver={"Final Time": 2.5e-6}, Restart={"Filename": "first.restart"})
+        first = strut.run(first, block.mesh())
+        run = strut.run(start(but(deck, Solver={"Final Time": 3e-6}), "first.restart", first.time), block.mesh())
+        self.assertNotEqual(run.history["Reaction_Z(hammer)"][1], 0)
+        self.assertNotIn("from all points", run.log)
+
+    def test_a_broken_body_on_cubes_is_not_told_to_be_on_other_cells(self):
+        """Its bonds along x have broken, so that its points no longer see the two faces across x that are near."""
+        cubes = strut.voxels(np.ones((5, 5, 5), bool), SPACING, name="block")
+        solid = {"Material Model": "Elastic", "Density": 2700.0, "Young's Modulus": 70e9, "Poisson's Ratio": 0.25}
+        pull = {"Type": "Initial Velocity", "Node Set": "all", "Coordinate": "x", "Value": "15000*x"}
+        deck = but(block.deck(Materials={"metal": solid}), Boundary_Conditions={"pull": pull}, Solver={"Final Time": 1e-7, "Verlet": {"Fixed dt": 1e-8}},
+                   Damage_Models={"breaks": {"Damage Model": "Critical Stretch", "Critical Stretch": 1e-3}},
+                   Blocks={"block": {"Block Names": "block", "Material": "metal", "Horizon Factor": 2.1, "Damage Model": "breaks"}},
+                   History={"Frequency": 1, "Variables": {"Mean_Damage": True}})
+        first = strut.run(but(deck, Restart={"Filename": "first.restart"}), cubes)
+        self.assertGreater(first.history["Mean_Damage"][-1], 0.05)
+        run = strut.Run(start(but(deck, Solver={"Final Time": 2e-7}), "first.restart", first.time), cubes)
+        for log in (first.log, run.log):
+            self.assertNotIn("cubic lattice", log)
 
     def test_what_cannot_start_is_refused_by_name(self):
         deck = block.deck(Output=block.output("first.e"))
