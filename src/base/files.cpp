@@ -104,11 +104,20 @@ bool takes_terminal_output(const fs::path& file) {
   return false;
 }
 
+// The reason why the system would refuse a name of this length in the folder, or nothing.
+std::string refusal_of_length(const fs::path& file, const fs::path& folder) {
+  const auto bytes = static_cast<long>(file.filename().native().size()),
+             most = ::pathconf(folder.c_str(), _PC_NAME_MAX);
+  if (most < 0 || bytes <= most) return "";  // below 0: it does not tell
+  return "its name has " + std::to_string(bytes) + " bytes; expected up to " + std::to_string(most);
+}
+
 // The reason why the system would refuse to write it, or nothing.
 std::string refusal_of_system(const fs::path& file) {
   const fs::path folder = folder_of(file);
   std::error_code failure;
   if (!fs::is_directory(folder, failure)) return "there is no folder '" + folder.string() + "'";
+  if (const std::string why = refusal_of_length(file, folder); !why.empty()) return why;
   const fs::path asked = fs::exists(file, failure) ? file : folder;
   return access(asked.c_str(), W_OK) == 0 ? "" : "'" + asked.string() + "': " + std::strerror(errno);
 }

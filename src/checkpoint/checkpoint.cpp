@@ -76,6 +76,7 @@ void Checkpoint::load() {
   last_time_ = snapshot.numbers.at("time");
   schedule_.done(last_time_);
   written_ = true;
+  settings_.kept_at_end = true;  // the run before may have kept it, as this deck need not: it is not ours to remove
   if (communicator_.rank() != 0) return;
   if (!note.empty()) std::cout << "WARNING: " << note << "\n";
   std::cout << "going on from " << settings_.file.string() << ", t = " << last_time_ << " s, step " << last_step_

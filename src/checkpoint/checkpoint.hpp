@@ -35,7 +35,9 @@ class Checkpoint {
   // Collective. Throws Error on all ranks if the file is damaged, or belongs to another model.
   void load();
   void remove();  // collective: removes the checkpoint of an earlier run; throws Error if the file is none
-  void close();   // collective; at the end of a completed run: removes the checkpoint unless it is to be kept
+  // Collective; at the end of a completed run: removes what it has written on the way, unless the state is to be kept,
+  // as by a run that went on.
+  void close();
 
   bool due(int step, double time) const;  // by the steps or the time of the simulation
   bool due_by_the_clock() const;          // on this rank

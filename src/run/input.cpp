@@ -36,7 +36,9 @@ void check_files(const deck::Deck& deck, deck::Problems& problems) {
   if (deck.history.has_file()) attempt("History > Filename", [&] { io::check_not_held(deck.history.file); });
   if (!deck.restart.enabled) return;
   attempt("Restart > Filename", [&] { io::check_not_held(lock_of(deck.restart.file)); });
-  if (std::filesystem::exists(before_of(deck.restart.file))) return;  // a damaged checkpoint does not prevent resuming
+  std::error_code failure;
+  if (std::filesystem::exists(before_of(deck.restart.file), failure))
+    return;  // a damaged checkpoint does not prevent resuming
   const std::string why = obstacle(deck.restart.file, FileKind::checkpoint);
   if (!why.empty() && !problems.about("Restart > Filename")) problems.add("Restart > Filename", why);
 }
@@ -46,7 +48,8 @@ void check_files(const deck::Deck& deck, deck::Problems& problems) {
 void check_two_solvers(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
   if (!deck.next_solver || is_over(deck, communicator)) return;
   const auto is_there = [&](const std::filesystem::path& file) {
-    return communicator.max(communicator.rank() == 0 && std::filesystem::exists(file) ? 1.0 : 0.0) > 0;
+    std::error_code failure;
+    return communicator.max(communicator.rank() == 0 && std::filesystem::exists(file, failure) ? 1.0 : 0.0) > 0;
   };
   for (const auto& file :
        {deck.output.enabled ? deck.output.file : "", deck.history.has_file() ? deck.history.file : ""}) {

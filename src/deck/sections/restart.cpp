@@ -44,7 +44,7 @@ Section restart_section() {
           .meaning =
               "Checkpoints, from which `strut --continue deck.xml` resumes a run and another run can begin (Start "
               "From). They are written at these times, at a signal, and at the end; without this section every " +
-              *minutes.fallback + " minutes, and at the end if there is a section Output.",
+              *minutes.fallback + " minutes, and at the end if there is a section Output or the run has gone on.",
           .keys = {enabled, file, when.frequency, when.interval, minutes, resumes}};
 }
 

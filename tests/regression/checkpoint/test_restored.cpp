@@ -122,5 +122,43 @@ TEST(Continued, HistoryOfAProfileAndAProbeMayBeginAndEnd) {
   go_on("", "3e-6", Start::continued);
 }
 
+// A run in parts: what each has of Output and History. The state is kept in the working folder, under the deck's name.
+class InParts : public testing::Test {
+ protected:
+  const RunFolder folder;
+  const std::string output = key("Output Filename", (folder / "run.e").string()) + key("Output Frequency", "3") +
+                             section("Output Variables", key("Displacement", "true"));
+  const std::string history =
+      key("Filename", (folder / "run.csv").string()) + key("Frequency", "3") + section("Variables", "");
+
+  std::string told(const std::string& frames, const std::string& rows, const std::string& end,
+                   Start start = Start::continued) const {
+    Parts parts;
+    parts.verlet = key("Fixed dt", "1e-7");
+    parts.output = frames, parts.history = rows, parts.times = key("Final Time", end);
+    testing::internal::CaptureStdout();
+    EXPECT_TRUE(run(folder.write("parted.xml", parts.text()), folder.world, start)) << end;
+    folder.world.barrier();
+    return testing::internal::GetCapturedStdout();
+  }
+  void TearDown() override {
+    folder.world.barrier();
+    for (const char* const name : {"parted.restart", "parted.restart.old"}) std::filesystem::remove(name);
+  }
+};
+
+// Parts that write no frames would leave nothing by themselves; what the first one has kept must not be lost by them.
+TEST_F(InParts, TheStateOfAFinishedRunIsKept) {
+  told(output, history, "1e-6", Start::anew);
+  for (const char* const end : {"1e-6", "2e-6"}) {
+    told("", history, end);
+    EXPECT_TRUE(std::filesystem::exists("parted.restart")) << end;
+  }
+  const std::string last = told(output, history, "3e-6");
+  if (folder.world.rank() == 0) {
+    EXPECT_NE(last.find("going on from parted.restart, t = 2e-06 s"), std::string::npos) << last;
+  }
+}
+
 }  // namespace
 }  // namespace strut::regression

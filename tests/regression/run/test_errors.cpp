@@ -267,6 +267,29 @@ TEST_F(Mistake, CheckFindsWhatARunWouldFind) {
   expect_error(deck, {"2 problems", "cannot be the name of a history column", "is no checkpoint of strut"});
 }
 
+// Files beside the checkpoint have longer names than the key gives, and so has a result.
+TEST_F(Mistake, NamesThatAreTooLong) {
+  const std::string solver = "<ParameterList name=\"Solver\">";
+  Parts parts = right_parts();
+  EXPECT_EQ(outcome(parts.text()).value_or("no error"), "no error");
+  parts.output = changed(parts.output, "result.e", std::string(255, 'o'));
+  parts.history = changed(parts.history, "history.csv", std::string(260, 'h'));
+  for (const std::size_t length : {251, 253, 300}) {
+    const std::string file = "@/" + std::string(length, 'r');
+    const std::string deck = changed(parts.text(), solver, section("Restart", key("Filename", file)) + solver);
+    std::string told;
+    try {
+      check(write_deck(deck), world);
+    } catch (const Error& thrown) {
+      told = thrown.what();
+    }
+    for (const char* part : {"Output > Output Filename: '", "its name has 257 bytes", "History > Filename: '",
+                             "its name has 260 bytes; expected up to", "Restart > Filename: '"})
+      EXPECT_NE(told.find(part), std::string::npos) << length << ": " << part << " in:\n" << told;
+    expect_error(deck, {"3 problems", "Restart > Filename: '"});
+  }
+}
+
 // Peridigm's second part of a run. The first part has the same key, and no checkpoint before it.
 TEST_F(Mistake, ADeckThatGoesOnFromACheckpointThatIsNotThere) {
   const auto with = [](const std::string& initial_time) {

@@ -98,6 +98,10 @@ TEST_F(Files, AFileIsReplacedByOneOfItsKindOnly) {
             std::string::npos);
   EXPECT_NE(obstacle(folder / ".", FileKind::log).find("is a folder"), std::string::npos);
   EXPECT_NE(obstacle(folder / "no/file", FileKind::log).find("there is no folder"), std::string::npos);
+  const std::string longest(255, 'x');
+  EXPECT_EQ(obstacle(folder / longest, FileKind::result), "");
+  EXPECT_NE(obstacle(folder / (longest + "x"), FileKind::result).find("its name has 256 bytes; expected up to 255"),
+            std::string::npos);
   EXPECT_EQ(obstacle("/dev/null", FileKind::log), "") << "loses nothing";
   EXPECT_NE(obstacle("/dev/null", FileKind::result), "");
 }
