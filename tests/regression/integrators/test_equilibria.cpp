@@ -131,6 +131,19 @@ TEST(SlowLoading, HoldsAllAxesByOneCondition) {
   EXPECT_GT(found.history.at("Reaction_Z(foot)").back(), 0);
 }
 
+// Nothing holds the bar across its axis, and nothing moves it there: on several ranks, too. What is left is what the
+// search leaves of the pull, 10 µm, in an oblique direction.
+TEST(SlowLoading, ABarThatIsFreeAcrossItsAxisStaysThere) {
+  Parts parts;
+  parts.conditions = along("low", "Prescribed Displacement", "foot", "z", "0") +
+                     along("pull", "Prescribed Displacement", "top", "z", "1e-5*t");
+  const Files files = files_of(parts, key("Number of Load Steps", "1"), {"Mean_Displacement_X", "Mean_Displacement_Y"},
+                               {.nx = 5, .ny = 5, .nz = 10});
+  EXPECT_EQ(files.error, "");
+  EXPECT_LT(std::abs(files.history.at("Mean_Displacement_X").back()), 1e-8);
+  EXPECT_LT(std::abs(files.history.at("Mean_Displacement_Y").back()), 1e-8);
+}
+
 // A foam bar that is drawn out loses all stress in a load step, without work, and is told of; one that is pressed is
 // not.
 TEST(SlowLoading, FoamThatPartsIsTold) {
