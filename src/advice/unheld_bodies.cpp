@@ -61,27 +61,22 @@ struct Piece {
   }
 };
 
-std::vector<double*> numbers_in(auto& matrix) {
-  std::vector<double*> numbers;
-  for (double& number : matrix.reshaped()) numbers.push_back(&number);
-  return numbers;
-}
-
 // All pieces, on all ranks, and the index of the piece of each owned point.
 struct Pieces {
   std::vector<Piece> all;
   std::vector<int> of;
 };
 
+// Sums numbers of each piece over all ranks.
 void sum(const Communicator& ranks, std::vector<Piece>& pieces, auto&& numbers_of) {
   std::vector<double> numbers;
   for (Piece& piece : pieces) {
-    for (double* number : numbers_of(piece)) numbers.push_back(*number);
+    for (const double number : numbers_of(piece)) numbers.push_back(number);
   }
   ranks.sum(numbers);
-  std::size_t n = 0;
+  auto next = numbers.begin();
   for (Piece& piece : pieces) {
-    for (double* number : numbers_of(piece)) *number = numbers[n++];
+    for (double& number : numbers_of(piece)) number = *next++;
   }
 }
 
@@ -104,18 +99,15 @@ Pieces pieces_of(const Domain& domain) {
     ++piece.of_block[domain.cloud.blocks[i]];
     piece.middle += domain.reference(i);
   }
-  sum(domain.communicator, pieces.all, [](Piece& piece) {
-    std::vector<double*> numbers = numbers_in(piece.middle);
-    for (double& count : piece.of_block) numbers.push_back(&count);
-    return numbers;
-  });
+  sum(domain.communicator, pieces.all, [](Piece& piece) { return std::span(piece.of_block); });
+  sum(domain.communicator, pieces.all, [](Piece& piece) { return piece.middle.reshaped(); });
   for (Piece& piece : pieces.all) piece.middle /= piece.points();
   for (int i = 0; i < domain.owned; ++i) {
     Piece& piece = pieces.all[pieces.of[i]];
     const Vector r = domain.reference(i) - piece.middle;
     piece.moments += r.squaredNorm() * Tensor::Identity() - r * r.transpose();
   }
-  sum(domain.communicator, pieces.all, [](Piece& piece) { return numbers_in(piece.moments); });
+  sum(domain.communicator, pieces.all, [](Piece& piece) { return piece.moments.reshaped(); });
   for (Piece& piece : pieces.all) piece.hold_what_moves_nothing(domain.communicator.rank() == 0);
   return pieces;
 }
@@ -171,11 +163,8 @@ void hold(const Scene& scene, double start, double step, Pieces& pieces) {
       for (const int i : one.points) ++pieces.all[pieces.of[i]].loaded;
     }
   });
-  sum(domain.communicator, pieces.all, [](Piece& piece) {
-    std::vector<double*> numbers = numbers_in(piece.holds);
-    numbers.push_back(&piece.loaded);
-    return numbers;
-  });
+  sum(domain.communicator, pieces.all, [](Piece& piece) { return piece.holds.reshaped(); });
+  sum(domain.communicator, pieces.all, [](Piece& piece) { return std::span(&piece.loaded, 1); });
 }
 
 // The number of pieces with points of each block.

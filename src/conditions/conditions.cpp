@@ -14,15 +14,6 @@ Stage stage_of(const Condition& condition) {
   return std::visit([]<class Type>(const Type&) { return Type::stage; }, condition);
 }
 
-bool any_friction_beside_motions(const Conditions& conditions) {
-  bool any = false, moves = false;
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (std::is_same_v<Type, RigidTool>) any = any || one.friction > 0;
-    if constexpr (std::is_same_v<Type, PrescribedMotion>) moves = moves || !one.points.empty();
-  });
-  return any && moves;
-}
-
 void take_turn(ChangesVelocities auto& condition, VelocityUpdate& update) {
   update.ledger_entry = condition.ledger_entry;
   update.reaction_place = condition.reaction_place;
@@ -73,7 +64,6 @@ void add_work_of_forces(const Conditions& conditions, double t, double impulse_t
 void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body, ImpulseWork& work,
                        ReactionImpulses& impulses) {
   VelocityUpdate update{t, steps, body, impulses};
-  if (any_friction_beside_motions(conditions)) update.held.assign(body.owned(), 0);
   conditions.visit([&]<class Type>(Type& one) {
     if constexpr (Type::stage != Stage::forces) take_turn(one, update);
   });

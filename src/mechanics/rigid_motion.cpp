@@ -1,7 +1,6 @@
 #include "mechanics/rigid_motion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "mechanics/passes.hpp"
@@ -10,41 +9,32 @@ namespace strut {
 
 namespace {
 
-// The range of the points' velocities along the axes: the largest v and −v of each component.
-class VelocityRange {
- public:
-  void add(const Vector& v) {
-    for (int c = 0; c < 3; ++c) {
-      most[2 * c] = std::max(most[2 * c], v[c]);
-      most[2 * c + 1] = std::max(most[2 * c + 1], -v[c]);
-    }
-  }
-  void spoil() { most.fill(std::numeric_limits<double>::infinity()); }
-  bool is_one() const { return most[0] == -most[1] && most[2] == -most[3] && most[4] == -most[5]; }
+// The largest v and −v of each component of the velocities of a body's points, and of their images by symmetry planes.
+using Extremes = Eigen::Array<double, 6, 1>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  std::array<double, 6> most = [] {
-    std::array<double, 6> none;
-    none.fill(-std::numeric_limits<double>::infinity());
-    return none;
-  }();
-};
+bool are_one(const Extremes& most) { return (most.head<3>() == -most.tail<3>()).all(); }
 
-// Adds the velocities of a block's points and of their images by symmetry planes; stops at the first that differs from
-// the others.
-void add(const Body& body, const MaterialBlock& block, int number, VelocityRange& range) {
-  for (const int i : block.points) {
-    const Vector& v = body.velocity[i];
-    if (v != body.velocity[block.points.front()]) return range.spoil();
-  }
-  if (block.points.empty()) return;
+// Of a block's points on this rank; infinite if one differs from the others.
+Extremes extremes(const Body& body, const MaterialBlock& block, int number) {
+  Extremes most = Extremes::Constant(-infinity);
+  if (block.points.empty()) return most;
   const Vector& v = body.velocity[block.points.front()];
-  range.add(v);
-  for (const Period& period : body.domain.periods) {
-    if (!period.stretch.is_constant()) range.spoil();  // images move otherwise
-  }
+  const bool move_otherwise = std::ranges::any_of(block.points, [&](int i) { return body.velocity[i] != v; });
+  const auto is_constant = [](const Period& period) { return period.stretch.is_constant(); };
+  if (move_otherwise || !std::ranges::all_of(body.domain.periods, is_constant)) return Extremes::Constant(infinity);
+  const auto add = [&](const Vector& one) { most = most.max((Extremes() << one, -one).finished()); };
+  add(v);
   for (const Mirror& mirror : body.domain.mirrors) {
-    if (mirror.body == number) range.add(Reflection::by(mirror).turn * v);
+    if (mirror.body == number) add(Reflection::by(mirror).turn * v);
   }
+  return most;
+}
+
+// The first block of the body to which block b belongs.
+std::size_t first_of(const Body& body, std::size_t b) {
+  const std::vector<BlockHorizons>& blocks = body.domain.blocks;
+  return std::ranges::find(blocks, blocks[b].body, &BlockHorizons::body) - blocks.begin();
 }
 
 bool is_in_place(const Body& body, const MaterialBlock& block) {
@@ -72,49 +62,29 @@ bool all_move_rigidly(const Body& body) {
 }
 
 void find_rigid_motion(Body& body) {
-  const std::vector<BlockHorizons>& blocks = body.domain.blocks;
-  std::vector<double> moved(blocks.size(), 0);  // at the first block of each body
-  const auto first_of = [&](std::size_t b) {
-    std::size_t first = 0;
-    while (blocks[first].body != blocks[b].body) ++first;
-    return first;
-  };
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
+  std::vector<double> moved(body.blocks.size(), 0);  // at the first block of each body
+  for (std::size_t b = 0; b < moved.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
     // A library is called from the start: its time is that of the run.
     const bool is_called = std::holds_alternative<materials::UserLaw>(block.material.law);
-    if (is_called || !is_in_place(body, block) || expands(body, b) || has_stress(body, block)) moved[first_of(b)] = 1;
+    if (is_called || !is_in_place(body, block) || expands(body, b) || has_stress(body, block))
+      moved[first_of(body, b)] = 1;
   }
   body.domain.communicator.max(moved);
-  for (std::size_t b = 0; b < blocks.size(); ++b) body.blocks[b].in_rigid_motion = moved[first_of(b)] == 0;
+  for (std::size_t b = 0; b < moved.size(); ++b) body.blocks[b].in_rigid_motion = moved[first_of(body, b)] == 0;
 }
 
 void update_rigid_motion(Body& body) {
-  std::vector<int> bodies;  // in rigid motion
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    if (body.blocks[b].in_rigid_motion) bodies.push_back(body.domain.blocks[b].body);
-  }
-  if (bodies.empty()) return;
-  std::sort(bodies.begin(), bodies.end());
-  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
-  std::vector<double> most;
-  for (const int one : bodies) {
-    VelocityRange range;
-    for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-      if (body.domain.blocks[b].body == one) add(body, body.blocks[b], one, range);
-    }
-    most.insert(most.end(), range.most.begin(), range.most.end());
+  std::vector<MaterialBlock>& blocks = body.blocks;
+  if (std::ranges::none_of(blocks, &MaterialBlock::in_rigid_motion)) return;
+  const bool all_did = all_move_rigidly(body);
+  std::vector<double> most(6 * blocks.size(), -infinity);  // at the first block of each body
+  const auto of_body = [&](std::size_t b) { return Eigen::Map<Extremes>(&most[6 * first_of(body, b)]); };
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (blocks[b].in_rigid_motion) of_body(b) = of_body(b).max(extremes(body, blocks[b], body.domain.blocks[b].body));
   }
   body.domain.communicator.max(most);
-  const bool all_did = all_move_rigidly(body);
-  for (std::size_t n = 0; n < bodies.size(); ++n) {
-    VelocityRange range;
-    std::copy_n(most.begin() + 6 * n, 6, range.most.begin());
-    if (range.is_one()) continue;
-    for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-      if (body.domain.blocks[b].body == bodies[n]) body.blocks[b].in_rigid_motion = false;
-    }
-  }
+  for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].in_rigid_motion &= are_one(of_body(b));
   // While all bodies were in rigid motion, ranks did not exchange positions; bonds that break need those at the start
   // of the step.
   if (all_did && !all_move_rigidly(body)) body.domain.halo.exchange_places(body.domain.sites);
