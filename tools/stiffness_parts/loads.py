@@ -2,7 +2,7 @@
 import xml.etree.ElementTree as tree
 
 import numpy as np
-from decks import Deck, section
+from decks import Deck, section, value_in
 
 from .faces import FACES
 
@@ -51,6 +51,8 @@ def deck_of(deck, kind, cases, center, strain, sets):
     for block in found.sections("Blocks").values():  # bonds of a stiffness do not break
         for key in [e for e in block.findall("Parameter") if e.get("name") == "Damage Model"]:
             block.remove(key)
+    for material in relaxing(found):  # the elastic constants are those of fast loading; a load case would last 1 s
+        material.remove(relaxation_of(material))
     points = {box_set(face): text for face, text in sets.items()}
     by_place = {name: text for name, text in points.items() if not text[0].isdigit()}
     if by_place and found.section("Node Sets") is None:
@@ -67,6 +69,24 @@ def deck_of(deck, kind, cases, center, strain, sets):
         "History": {"Filename": "sample.csv", "Frequency": 1,
                     "Variables": {f"Mean_Cauchy_Stress_{c.upper()}": "true" for c in ORDER}}}))
     return Deck.of(deck.path, tree.tostring(found.root, "unicode"))
+
+
+def relaxation_of(material):
+    return next((e for e in material.findall("ParameterList") if e.get("name") == "Relaxation"), None)
+
+
+def relaxing(deck):
+    return [m for m in deck.sections("Materials").values() if relaxation_of(m) is not None]
+
+
+def has_library(deck):
+    return any(value_in(m, "Material Model") == "User Library" for m in deck.sections("Materials").values())
+
+
+def meanings(deck):
+    """Lines that say which stiffness it is, where stress changes with time."""
+    told = ["stiffness of fast loading: Relaxation is left out"] if relaxing(deck) else []
+    return told + (["User Library: stiffness after 1 s of load, should its stress relax"] if has_library(deck) else [])
 
 
 def box_set(face):

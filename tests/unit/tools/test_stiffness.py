@@ -55,6 +55,20 @@ class Samples(InFolder):
             np.testing.assert_allclose(C, isotropic(117e9, 0.35), rtol=2e-5, atol=2e-5 * 117e9, err_msg=kind)
 
     @unittest.skipUnless("STRUT" in os.environ, "STRUT names no program")
+    def test_an_elastomer_has_the_stiffness_of_fast_loading_however_fast_it_relaxes(self):
+        (self.folder / "rubber.recipe").write_text("name = rubber\nshape = box\nsize = 5e-3 5e-3 5e-3\nspacing = 1e-3\n")
+        elastic = '<Parameter name="Poisson\'s Ratio" type="string" value="0.4" />'
+        plain = deck("rubber.g", {"rubber": (2.8e6, 0.4)}, "Correspondence")
+        relaxing = tree.tostring(section("Relaxation", {"Fractions": 0.5, "Times": 1e-6}), "unicode")
+        self.assertIn(elastic, plain)
+        (self.folder / "rubber.xml").write_text(plain.replace("Elastic Correspondence", "Hyperelastic").replace(elastic, elastic + relaxing))
+        done = self.stiffness("rubber.xml", "out", "--layers", 2, "--boundaries", "kinematic")
+        self.assertIn("stiffness of fast loading: Relaxation is left out\n", done.stdout)
+        with open(self.folder / "out/stiffness.csv", newline="") as file:
+            C = np.array([[float(x) for x in row[2:]] for row in list(csv.reader(file))[1:]])
+        np.testing.assert_allclose(C, isotropic(2.8e6, 0.4), rtol=2e-4, atol=2e-4 * 2.8e6)  # strains are 1e-5
+
+    @unittest.skipUnless("STRUT" in os.environ, "STRUT names no program")
     def test_a_laminate_has_backus_averages_as_the_spacing_falls(self):
         stuff = {"a": (120e9, 0.35), "b": (30e9, 0.2)}
         (self.folder / "laminate.xml").write_text(deck("laminate.g", stuff))
