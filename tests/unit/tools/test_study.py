@@ -151,6 +151,7 @@ class Studies(InFolder):
         deck = Deck(str(self.folder / "bar.yaml"))
         self.assertEqual([float(deck.get("Blocks", "bar", "Horizon Factor")), float(deck.get("Materials", "copper", "Young's Modulus"))],
                          [1.75, 117e9])
+        self.assertIn("spacing=0.0005", self.study("--converge", "spacing", "--ratio", "2", "bar.yaml", "grids", "--list")[1])
         (self.folder / "bar.yaml").write_text(IN_YAML.replace("bar.g}", "bar.g"))
         status, _, errors = self.study("bar.study", "other")
         self.assertEqual(status, 1)
