@@ -12,6 +12,25 @@
 
 namespace strut {
 
+namespace {
+
+// A run of two solvers writes no checkpoint, but replaces the results to which an earlier one belongs. A file that is
+// none may stay, and so may the one with which this run has begun.
+bool has_left_over(const deck::Deck& deck, const Communicator& communicator) {
+  if (!deck.next_solver || !checkpoint_exists(deck, communicator)) return false;
+  bool is_left = false;
+  if (communicator.rank() == 0) {
+    const auto may_go = [&](const std::filesystem::path& file) {
+      return is_of_kind(file, FileKind::checkpoint) &&
+             !(deck.start_from && same_file(file, deck.start_from->checkpoint));
+    };
+    is_left = may_go(deck.restart.file) && may_go(before_of(deck.restart.file));
+  }
+  return communicator.max(is_left ? 1.0 : 0.0) > 0;
+}
+
+}  // namespace
+
 bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator) {
   const bool there = communicator.rank() == 0 && io::checkpoint_is_there(deck.restart.file);
   return communicator.max(there ? 1.0 : 0.0) > 0;
@@ -26,13 +45,14 @@ bool check_changes(const deck::Deck& deck, const Communicator& communicator) {
     problems.add("Solver > Final Time", text_of("'", deck.solver.final_time, "' has passed: the checkpoint is of t = ",
                                                 facts.time, " s; expected that or a later one"));
   }
-  raise_together(communicator,
-                 problems.lines().empty()
-                     ? ""
-                     : problems.text(deck.file.string() + ": cannot go on from " + deck.restart.file.string() +
-                                     ", which is of another deck (a run goes on with another final time, steps, output "
-                                     "or load); 'strut " +
-                                     deck.file.string() + "' begins anew"));
+  raise_together(
+      communicator,
+      problems.lines().empty()
+          ? ""
+          : problems.text(deck.file.string() + ": cannot go on from " + deck.restart.file.string() +
+                          ", which is of another deck (a run goes on with another final time, steps, times of "
+                          "output or load, and with or without Output and History); 'strut " +
+                          deck.file.string() + "' begins anew"));
   if (communicator.rank() != 0) return facts.has_expanded;
   const std::string since = deck.file.string() + " is not as it was when the checkpoint was written: ";
   for (const std::string& one : changes.accepted) std::cout << "note: " << since << one << "\n";
@@ -46,6 +66,7 @@ Checkpoint::Checkpoint(const deck::Deck& deck, const Communicator& communicator,
       deck_text_(deck.text),
       communicator_(communicator),
       serialize_(std::move(serialize)),
+      has_left_over_(has_left_over(deck, communicator)),
       schedule_(deck.restart.enabled, deck.restart.frequency, deck.restart.interval, deck.solver.initial_time) {
   schedule_.done(deck.solver.initial_time);
   if (!settings_.enabled) return;
@@ -84,7 +105,7 @@ void Checkpoint::load() {
 }
 
 void Checkpoint::remove() {
-  if (settings_.enabled) io::remove_checkpoint(settings_.file, communicator_);
+  if (settings_.enabled || has_left_over_) io::remove_checkpoint(settings_.file, communicator_);
 }
 
 bool Checkpoint::due(int step, double time) const { return step > last_step_ && schedule_.due(step, time); }

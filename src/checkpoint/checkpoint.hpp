@@ -54,6 +54,7 @@ class Checkpoint {
   std::string deck_name_, deck_text_;
   Communicator communicator_;
   Serialize serialize_;
+  bool has_left_over_;  // an earlier run has, which wrote checkpoints as this one does not
   Schedule schedule_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   int last_step_ = 0;  // last step written or loaded

@@ -23,12 +23,14 @@ bool Schedule::due(int step, double time) const {
 }
 
 void Schedule::serialize(Archive& archive, const std::string& name, int step, double time) {
-  double interval = interval_.value_or(0), next = next_time_, due_at = due(step, time) ? time : never;
+  double interval = interval_.value_or(0), next = next_time_;
+  double due_at = !enabled_ ? due_at_ : due(step, time) ? time : never;
   archive.number(name + "_interval", interval);
   archive.number(name + "_next", next);
   archive.number(name + "_due_at", due_at);
   if (!archive.loading()) return;
-  due_at_ = due_at;
+  due_at_ = !enabled_ && due_at == never ? time : due_at;  // the last time of a run has output, due or not
+  if (enabled_ && due_at != never && due_at < time) uncounted_ = due_at;
   if (interval == interval_.value_or(0)) {
     next_time_ = next;
   } else {

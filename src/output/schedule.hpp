@@ -17,8 +17,13 @@ class Schedule {
 
   bool due(int step, double time) const;
   // `step`, `time`: of the archive. A restored schedule with another interval or frequency starts anew there. Output
-  // that was due there by the former one stays due: it comes after the archive.
+  // that was due there by the former one stays due: it comes after the archive. While a run goes on without this
+  // output, that of its first time is remembered.
   void serialize(Archive& archive, const std::string& name, int step, double time);
+
+  // Where a run without this output has begun, s, if this one has it again: the file may have that time beyond what was
+  // counted for the archive.
+  std::optional<double> uncounted() const { return uncounted_; }
 
   void done(double time);  // the next time is the first multiple of the interval after `time`
 
@@ -28,6 +33,7 @@ class Schedule {
   std::optional<double> interval_;
   double initial_time_, next_time_;
   double due_at_ = never;  // s, also due at this time
+  std::optional<double> uncounted_;
 };
 
 }  // namespace strut

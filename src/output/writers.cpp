@@ -17,7 +17,8 @@ void FieldWriter::open(const Body& body) {
   if (!enabled_) return;
   std::vector<io::OutputField> fields;
   for (const Observable& v : variables_) fields.push_back({v.name, v.components, v.nodal});
-  writer_.emplace(file_, body.domain.communicator, whole_cloud(body.domain), std::move(fields), before_, sum_);
+  writer_.emplace(file_, body.domain.communicator, whole_cloud(body.domain), std::move(fields), before_, sum_,
+                  schedule.uncounted());
 }
 
 void FieldWriter::write(double time, const Body& body) {
@@ -82,7 +83,7 @@ void History::open(const Body& body) {
   }
   for (const ContactComponent& contact : contacts_) columns.push_back({contact.name, unit(contact.is_instant)});
   if (rows_ && rows_->columns.empty()) rows_->columns = columns;  // as in the file, which other solvers go on with
-  if (!path_.empty()) file_.emplace(path_, body.domain.communicator, columns, before_, sum_);
+  if (!path_.empty()) file_.emplace(path_, body.domain.communicator, columns, before_, sum_, schedule.uncounted());
 }
 
 // Contact forces on this rank, N; one per column.

@@ -34,8 +34,9 @@ void check_files(const deck::Deck& deck, deck::Problems& problems) {
   };
   if (deck.output.enabled) attempt("Output > Output Filename", [&] { io::check_not_held(deck.output.file); });
   if (deck.history.has_file()) attempt("History > Filename", [&] { io::check_not_held(deck.history.file); });
+  if (deck.restart.enabled || deck.next_solver)  // two solvers remove what an earlier run has left
+    attempt("Restart > Filename", [&] { io::check_not_held(lock_of(deck.restart.file)); });
   if (!deck.restart.enabled) return;
-  attempt("Restart > Filename", [&] { io::check_not_held(lock_of(deck.restart.file)); });
   std::error_code failure;
   if (std::filesystem::exists(before_of(deck.restart.file), failure))
     return;  // a damaged checkpoint does not prevent resuming

@@ -58,10 +58,11 @@ std::string result_problem(const PointCloud& cloud, const Communicator& communic
 class ExodusWriter {
  public:
   // `cloud`: this rank's points, in the order of the columns given to write(). Replaces a file of that name, or
-  // continues after its first `frames`, which must have the checksum `sum`. Errors: the file cannot be created, another
-  // run writes to it, it does not have these points, fields or frames.
+  // continues after its first `frames`, which must have the checksum `sum`, and after the next one, if it is of the
+  // time `uncounted`, s. Errors: the file cannot be created, another run writes to it, it does not have these points,
+  // fields or frames.
   ExodusWriter(const std::filesystem::path& file, const Communicator& communicator, const PointCloud& cloud,
-               std::vector<OutputField> fields, int frames = 0, double sum = 0);
+               std::vector<OutputField> fields, int frames = 0, double sum = 0, std::optional<double> uncounted = {});
   ~ExodusWriter();
   ExodusWriter(ExodusWriter&&) noexcept;
 

@@ -85,9 +85,9 @@ struct ExodusWriter::File {
   File(const Communicator& comm, const PointCloud& cloud, std::vector<OutputField> output)
       : communicator(comm), fields(std::move(output)), points(cloud.size()), slices(comm, cloud.ids) {}
 
-  void begin(const std::filesystem::path& path, const PointCloud& cloud, double sum);
+  void begin(const std::filesystem::path& path, const PointCloud& cloud, double sum, std::optional<double> uncounted);
   void create(const std::filesystem::path& path, const PointCloud& cloud);
-  void go_on(const std::filesystem::path& path, double sum);
+  void go_on(const std::filesystem::path& path, double sum, std::optional<double> uncounted);
   bool fits(const ExodusFile& found) const;
   void take_frames(const ExodusFile& found);
   double sum() const;
@@ -120,12 +120,14 @@ struct ExodusWriter::File {
   }
 };
 
-void ExodusWriter::File::begin(const std::filesystem::path& path, const PointCloud& cloud, double sum) {
+void ExodusWriter::File::begin(const std::filesystem::path& path, const PointCloud& cloud, double sum,
+                               std::optional<double> uncounted) {
   if (slices.size() == 0) throw Error(path.string() + ": there are no points to write");
   define_blocks(cloud);
   run_on_root(communicator, [&] { lock.emplace(path, steps > 0 ? FileLock::File::there : FileLock::File::made); });
   if (steps == 0) return create(path, cloud);
-  run_on_root(communicator, [&] { go_on(path, sum); });
+  run_on_root(communicator, [&] { go_on(path, sum, uncounted); });
+  steps = static_cast<int>(communicator.max(steps));
 }
 
 std::array<std::vector<std::string>, 2> ExodusWriter::File::names() const {
@@ -151,6 +153,7 @@ void ExodusWriter::File::take_frames(const ExodusFile& found) {
       last_values.add(std::span<const double>(read(begin, std::min(portion, count - begin))));
     }
   };
+  last_values = {};
   times = found.times();
   times.resize(static_cast<std::size_t>(steps));
   std::array<int, 2> next = {0, 0};  // next variable: element, nodal
@@ -179,7 +182,7 @@ double ExodusWriter::File::sum() const {
 
 // Drops frames beyond the first `steps`, because the run computes them again. The last one may be incomplete: when the
 // library extends a file, it counts a frame as soon as it begins to write it, and the run may be killed then.
-void ExodusWriter::File::go_on(const std::filesystem::path& path, double sum_then) {
+void ExodusWriter::File::go_on(const std::filesystem::path& path, double sum_then, std::optional<double> uncounted) {
   const auto wrong = [&](const std::string& what) {
     throw Error(path.string() + ": is not the result that the run left: " + what);
   };
@@ -188,8 +191,12 @@ void ExodusWriter::File::go_on(const std::filesystem::path& path, double sum_the
     const ExodusFile found = ExodusFile::open(path, ExodusFile::Access::read, steps);
     if (!fits(found)) wrong("it has other points or fields, or fewer than " + std::to_string(steps) + " frames");
     take_frames(found);
+    if (sum() != sum_then)
+      wrong("its frames are of other times, or the last one before the checkpoint has other values");
+    const std::vector<double> all = found.times();
+    const bool follows = std::ssize(all) > steps && all[static_cast<std::size_t>(steps)] == uncounted;
+    if (follows && classic_netcdf_problem(path, steps + 1).empty()) ++steps, take_frames(found);
   }
-  if (sum() != sum_then) wrong("its frames are of other times, or the last one before the checkpoint has other values");
   keep_records(path, steps);
   exodus.emplace(ExodusFile::open(path, ExodusFile::Access::write));
 }
@@ -314,10 +321,10 @@ void ExodusWriter::File::write_element(int variable, const std::vector<double>& 
 }
 
 ExodusWriter::ExodusWriter(const std::filesystem::path& file, const Communicator& communicator, const PointCloud& cloud,
-                           std::vector<OutputField> fields, int frames, double sum)
+                           std::vector<OutputField> fields, int frames, double sum, std::optional<double> uncounted)
     : file_(std::make_unique<File>(communicator, cloud, std::move(fields))) {
   file_->steps = frames;
-  file_->begin(file, cloud, sum);
+  file_->begin(file, cloud, sum, uncounted);
 }
 
 ExodusWriter::~ExodusWriter() = default;

@@ -46,13 +46,14 @@ std::optional<double> last_time_of_history(const std::filesystem::path& file) {
 }
 
 HistoryFile::HistoryFile(const std::filesystem::path& path, const Communicator& communicator,
-                         const std::vector<HistoryColumn>& columns, std::int64_t bytes, double sum)
+                         const std::vector<HistoryColumn>& columns, std::int64_t bytes, double sum,
+                         std::optional<double> uncounted)
     : path_(path), communicator_(communicator), columns_(columns.size()), bytes_(bytes) {
   run_on_root(communicator_, [&] {
     check_names(columns);
     lock_.emplace(path_, bytes_ > 0 ? FileLock::File::there : FileLock::File::made);
     const std::string header = joined_of(columns, &HistoryColumn::name);
-    bytes_ > 0 ? go_on(header, sum) : begin(joined_of(columns, &HistoryColumn::unit), header);
+    bytes_ > 0 ? go_on(header, sum, uncounted) : begin(joined_of(columns, &HistoryColumn::unit), header);
   });
 }
 
@@ -64,7 +65,7 @@ void HistoryFile::begin(const std::string& units, const std::string& header) {
   write_line(header);
 }
 
-void HistoryFile::go_on(const std::string& header, double sum) {
+void HistoryFile::go_on(const std::string& header, double sum, std::optional<double> uncounted) {
   std::string facts, found;
   std::ifstream before(path_, std::ios::binary);
   if (std::getline(before, facts)) std::getline(before, found);
@@ -77,6 +78,7 @@ void HistoryFile::go_on(const std::string& header, double sum) {
   }
   take(before.seekg(0));
   if (sum_.value() != sum) wrong("has other rows");
+  if (uncounted) take_row(before, *uncounted);
   std::error_code failure;
   std::filesystem::resize_file(path_, static_cast<std::uintmax_t>(bytes_), failure);
   if (!failure) file_.open(path_, std::ios::app);
@@ -91,6 +93,15 @@ void HistoryFile::take(std::istream& file) {
     file.read(portion.data(), std::ssize(portion));
     sum_.add(portion);
   }
+}
+
+// Takes the next row, too, if it is of this time, and whole.
+void HistoryFile::take_row(std::istream& file, double time) {
+  std::string row;
+  if (!std::getline(file, row) || file.eof() || std::strtod(row.c_str(), nullptr) != time) return;
+  bytes_ += std::ssize(row) + 1;
+  sum_.add(row);
+  sum_.add("\n");
 }
 
 void HistoryFile::write(std::span<const double> row) {

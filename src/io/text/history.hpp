@@ -29,11 +29,13 @@ std::optional<double> last_time_of_history(const std::filesystem::path& file);
 // Collective; rank 0 writes.
 class HistoryFile {
  public:
-  // Replaces a file of that name, or continues after its first `bytes`, which must have the checksum `sum`. Throws
-  // Error on all ranks if the file cannot be created, if another run writes to it, if a name contains a comma, a quote
-  // or a line break, or if the file is shorter or has other columns or rows.
+  // Replaces a file of that name, or continues after its first `bytes`, which must have the checksum `sum`, and after
+  // the row that follows there, if it is of the time `uncounted`, s. Throws Error on all ranks if the file cannot be
+  // created, if another run writes to it, if a name contains a comma, a quote or a line break, or if the file is
+  // shorter or has other columns or rows.
   HistoryFile(const std::filesystem::path& path, const Communicator& communicator,
-              const std::vector<HistoryColumn>& columns, std::int64_t bytes = 0, double sum = 0);
+              const std::vector<HistoryColumn>& columns, std::int64_t bytes = 0, double sum = 0,
+              std::optional<double> uncounted = {});
 
   // Writes and flushes rank 0's row; the other ranks' rows are ignored. Throws Error on all ranks if the row does not
   // have one value per column, or if the disk is full.
@@ -45,8 +47,9 @@ class HistoryFile {
 
  private:
   void begin(const std::string& units, const std::string& header);
-  void go_on(const std::string& header, double sum);
+  void go_on(const std::string& header, double sum, std::optional<double> uncounted);
   void take(std::istream& file);
+  void take_row(std::istream& file, double time);
   void write_line(const std::string& line);
 
   std::filesystem::path path_;

@@ -160,5 +160,20 @@ TEST_F(InParts, TheStateOfAFinishedRunIsKept) {
   }
 }
 
+// The row and the frame at a checkpoint are written after it.
+TEST_F(InParts, RowsAndFramesBeforeAPauseStay) {
+  told(output, history, "1e-6", Start::anew);
+  for (const char* const end : {"2e-6", "3e-6"}) told("", "", end);
+  told(output, history, "4e-6");
+  for (const std::vector<double>& times :
+       {read_history(folder / "run.csv").at("Time"), io::read_result(folder / "run.e").times}) {
+    const auto next = std::ranges::upper_bound(times, 1.05e-6);
+    ASSERT_TRUE(next != times.begin() && next != times.end());
+    EXPECT_NEAR(next[-1], 1e-6, 1e-12);
+    EXPECT_NEAR(next[0], 3e-6, 1e-12);
+    EXPECT_TRUE(std::ranges::is_sorted(times));
+  }
+}
+
 }  // namespace
 }  // namespace strut::regression

@@ -261,5 +261,35 @@ TEST(TwoSolvers, AWallTimeLeavesNothingToGoOnFrom) {
   EXPECT_NE(said.find("Solver > Wall Time ends a run of two solvers without a checkpoint"), std::string::npos) << said;
 }
 
+// The state that equilibria alone have left is not that of the run that begins anew: --continue would ask for one that
+// does, again and again.
+TEST(TwoSolvers, ARunThatBeginsAnewRemovesAnEarlierState) {
+  const auto written = [](const RunFolder& folder, const std::string& text) {
+    testing::internal::CaptureStdout();
+    EXPECT_TRUE(run(folder.write("grown.xml", text), folder.world));
+    testing::internal::GetCapturedStdout();
+    folder.world.barrier();
+  };
+  Parts parts;
+  parts.conditions = held;
+  const RunFolder folder;
+  parts.output =
+      key("Output Filename", (folder / "run.e").string()) + section("Output Variables", key("Displacement", "true"));
+  const std::string both = deck_of(parts);
+  const std::string next = section("Solver 2", key("Final Time", "1.000005") + section("Verlet", ""));
+  written(folder, changed(both, next, ""));
+  EXPECT_TRUE(std::filesystem::exists("grown.restart"));
+  const std::string from = "<ParameterList>\n" + section("Start From", key("Checkpoint", "grown.restart"));
+  written(folder, changed(changed(both, "<ParameterList>\n", from), "run.e", "other.e"));
+  EXPECT_TRUE(std::filesystem::exists("grown.restart")) << "the run has begun with it";
+  written(folder, both);
+  EXPECT_FALSE(std::filesystem::exists("grown.restart"));
+  testing::internal::CaptureStdout();
+  EXPECT_TRUE(run(folder / "grown.xml", folder.world, Start::continued));
+  testing::internal::GetCapturedStdout();
+  folder.world.barrier();
+  std::filesystem::remove("grown.restart");
+}
+
 }  // namespace
 }  // namespace strut::regression
