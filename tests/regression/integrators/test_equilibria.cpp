@@ -167,13 +167,13 @@ TEST(SlowLoading, FromAStrainedBodyHasItsToleranceAndGoesOnToTheLastBit) {
   run(bar_that_goes_on(folder, "first", 0, "8e-4*t", ""), folder.world);
   const std::string way = "8e-4*t + 1e-2*(t-1)*x";
   run(bar_that_goes_on(folder, "whole", 1, way, "first.restart"), folder.world);
-  const auto parted = bar_that_goes_on(folder, "parted", 1, way, "first.restart");
+  const auto divided = bar_that_goes_on(folder, "divided", 1, way, "first.restart");
   {
     deck::Problems problems;
-    deck::Deck deck = deck::read(parted, folder.world, problems);
+    deck::Deck deck = deck::read(divided, folder.world, problems);
     strut::Run(std::move(deck), problems, folder.world, Start::anew).advance({.steps = 1});
   }
-  run(parted, folder.world, Start::continued);
+  run(divided, folder.world, Start::continued);
   std::istringstream said(testing::internal::GetCapturedStdout());
   int steps = 0;
   for (std::string line, word; std::getline(said, line);) {
@@ -183,7 +183,7 @@ TEST(SlowLoading, FromAStrainedBodyHasItsToleranceAndGoesOnToTheLastBit) {
     EXPECT_LT(std::stod(line.substr(at + 14)), 1.01e-12) << line;
   }
   EXPECT_EQ(steps, folder.world.rank() == 0 ? 9 : 0);
-  EXPECT_EQ(read_history(folder / "parted.csv"), read_history(folder / "whole.csv"));
+  EXPECT_EQ(read_history(folder / "divided.csv"), read_history(folder / "whole.csv"));
 }
 
 // A foam bar that is drawn out loses all stress in a load step, without work, and is told of; one that is pressed is
