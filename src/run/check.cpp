@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -83,13 +84,14 @@ std::string check_steps(const deck::Deck& deck, Scene& scene) {
 }
 
 // Estimates from the first two load steps, or from the start of the first if it takes long.
-std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
+std::string check_equilibria(const deck::Deck& deck, Scene& scene, std::optional<StartState>& state) {
   constexpr double patience = 60;  // s
   constexpr double most = 2;       // load steps with flow and contact take this many times as long
   const auto start = Clock::now();
   Observer observer{[](const std::string&) {}, {}, [&] { return seconds_since(start) > patience; }};
   QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
                      deck.solver.initial_time, deck.solver.final_time, observer, std::move(scene.fracture));
+  if (state) state->begin(solver);
   const double steps = scene.quasi_static->load_steps;
   const bool found = solver.advance();
   const double first = seconds_since(start);
@@ -126,7 +128,7 @@ void check(const std::filesystem::path& deck_file, const Communicator& communica
   const std::string started = state ? state->restore(deck, scene) : "";
   const std::string scene_text = describe_scene(scene, advice(deck, scene)) + started;
   if (communicator.rank() == 0) std::cout << scene_text << std::flush;
-  const std::string text = (scene.quasi_static ? check_equilibria(deck, scene) : check_steps(deck, scene)) +
+  const std::string text = (scene.quasi_static ? check_equilibria(deck, scene, state) : check_steps(deck, scene)) +
                            memory_and_frame(scene, variables);
   if (communicator.rank() == 0) std::cout << text << deck_file.string() << ": no errors\n";
 }

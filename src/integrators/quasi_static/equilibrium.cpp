@@ -26,9 +26,9 @@ constexpr double smallest_scale = 1e-4;
 // Factor on the forces by round-off: a body that moves a little has larger ones than a body at rest.
 constexpr double few = 4;
 
-// Largest ratio of the forces of a body at rest to the forces by round-off of positions; canceling terms make it some
-// 200 with quadratic correspondence. More is no round-off: the body is handed over strained.
-constexpr double most_cancelled = 1e4;
+// Ratio of the forces of a body at rest to the forces by round-off of positions, which canceling terms make some 200
+// with quadratic correspondence. Beyond the second one it is no round-off: the body is handed over strained.
+constexpr double usual_cancelled = 200, most_cancelled = 1e4;
 
 // Root of the sum of squares over all points, N: positions have the error ε |X|, forces ω² m times that.
 double round_off_of_places(const Body& body) {
@@ -95,7 +95,8 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
   directions_ = body.domain.sites;
   const double of_places = round_off_of_places(body);
   const Field of_body = body.force_density;  // of a run that goes on
-  round_off_ = few * std::clamp(forces_at_rest(body), of_places, most_cancelled * of_places);
+  const double of_rest = std::max(forces_at_rest(body), of_places);
+  round_off_ = few * (of_rest > most_cancelled * of_places ? usual_cancelled * of_places : of_rest);
   put_back(of_body, body);
   committed_.restore(body);
   looked_at_.resize(body.owned());
@@ -180,6 +181,7 @@ void Equilibrium::add_contact() {
 }
 
 void Equilibrium::begin_strained(double t) {
+  round_off_ = std::min(round_off_, few * usual_cancelled * round_off_of_places(body_));  // however little is strained
   for (MaterialBlock& block : body_.blocks) block.in_rigid_motion = false;  // equilibria look at every body
   advance(0, t, true);
   mirror_forces_before_ = mirror_forces(body_);
@@ -361,6 +363,7 @@ void Equilibrium::serialize_search(Archive& archive) {
   archive.number("step_begin", t_);
   archive.number("step_length", dt_);
   archive.number("largest_scale", largest_scale_);
+  archive.number("round_off", round_off_);  // of where the run began, not of the mesh
   const contact::Kinematics kinematics{body_.domain, body_.velocity, body_.density};
   contact_.serialize(archive, kinematics, 0);
   tools_.serialize(archive, body_);

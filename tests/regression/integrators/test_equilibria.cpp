@@ -144,6 +144,48 @@ TEST(SlowLoading, ABarThatIsFreeAcrossItsAxisStaysThere) {
   EXPECT_LT(std::abs(files.history.at("Mean_Displacement_Y").back()), 1e-8);
 }
 
+// The deck of a bar whose end moves so: in three load steps from this time on, with a checkpoint after each.
+std::filesystem::path bar_that_goes_on(const RunFolder& folder, const std::string& name, int start,
+                                       const std::string& way, const std::string& from) {
+  Parts parts;
+  parts.conditions = all_of_foot() + along("pull", "Prescribed Displacement", "top", "z", way);
+  parts.times = key("Initial Time", std::to_string(start)) + key("Final Time", std::to_string(start + 1));
+  parts.verlet = key("Number of Load Steps", "3") + key("Tolerance", "1e-12");
+  parts.history = key("Filename", (folder / (name + ".csv")).string()) + key("Frequency", "1") +
+                  section("Variables", switched_on({"Mean_Displacement_X(top)"}));
+  std::string text = changed(parts.text(), R"(name="Verlet")", R"(name="QuasiStatic")");
+  text.insert(text.rfind("</ParameterList>"),
+              section("Restart", key("Filename", (folder / (name + ".restart")).string()) + key("Frequency", "1")) +
+                  (from.empty() ? "" : section("Start From", key("Checkpoint", (folder / from).string()))));
+  return folder.write(name + ".xml", text);
+}
+
+// The tolerance is that of the deck however much is strained at the start, and the same where a run is continued.
+TEST(SlowLoading, FromAStrainedBodyHasItsToleranceAndGoesOnToTheLastBit) {
+  const RunFolder folder;
+  testing::internal::CaptureStdout();
+  run(bar_that_goes_on(folder, "first", 0, "8e-4*t", ""), folder.world);
+  const std::string way = "8e-4*t + 1e-2*(t-1)*x";
+  run(bar_that_goes_on(folder, "whole", 1, way, "first.restart"), folder.world);
+  const auto divided = bar_that_goes_on(folder, "divided", 1, way, "first.restart");
+  {
+    deck::Problems problems;
+    deck::Deck deck = deck::read(divided, folder.world, problems);
+    strut::Run(std::move(deck), problems, folder.world, Start::anew).advance({.steps = 1});
+  }
+  run(divided, folder.world, Start::continued);
+  std::istringstream said(testing::internal::GetCapturedStdout());
+  int steps = 0;
+  for (std::string line, word; std::getline(said, line);) {
+    const std::size_t at = line.find(" evaluations, ");
+    if (!line.starts_with("step ") || at == line.npos) continue;
+    ++steps;
+    EXPECT_LT(std::stod(line.substr(at + 14)), 1.01e-12) << line;
+  }
+  EXPECT_EQ(steps, folder.world.rank() == 0 ? 9 : 0);
+  EXPECT_EQ(read_history(folder / "divided.csv"), read_history(folder / "whole.csv"));
+}
+
 // A foam bar that is drawn out loses all stress in a load step, without work, and is told of; one that is pressed is
 // not.
 TEST(SlowLoading, FoamThatPartsIsTold) {

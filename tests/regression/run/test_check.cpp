@@ -103,6 +103,33 @@ TEST(Check, TellsTheTimeThatARunTakes) {
   if (folder.world.rank() == 0) expect_told_time(told, seconds);
 }
 
+// The first load step is that of the run, with the friction that is there.
+TEST(Check, LooksAtEquilibriaThatStartFromAnotherRun) {
+  const RunFolder folder;
+  const std::string checkpoint = (folder / "first.restart").string();
+  Parts parts;
+  parts.conditions =
+      along("low", "Prescribed Displacement", "foot", "xyz", "0") +
+      section("press", key("Type", "Rigid Plane") + key("Point", "0 0 5.5e-3") + key("Normal", "0 0 -1") +
+                           key("Friction Coefficient", "0.3") + key("Travel Z", "-1e-5*t") + key("Travel X", "1e-5*t"));
+  const auto told = [&](int start, const std::string& more, const auto& action) {
+    parts.times = key("Initial Time", std::to_string(start)) + key("Final Time", std::to_string(start + 1));
+    std::string text = changed(parts.text(), section("Verlet", parts.verlet),
+                               section("QuasiStatic", key("Number of Load Steps", "2")));
+    text.insert(text.rfind("</ParameterList>"), more);
+    testing::internal::CaptureStdout();
+    action(folder.write("deck.xml", text), folder.world);
+    return testing::internal::GetCapturedStdout();
+  };
+  const auto whole = [](const auto& deck, const Communicator& world) { run(deck, world); };
+  told(0, section("Restart", key("Filename", checkpoint) + key("Frequency", "1")), whole);
+  const std::string start = section("Start From", key("Checkpoint", checkpoint));
+  const std::string checked = told(1, start, [](const auto& deck, const Communicator& world) { check(deck, world); });
+  const std::string done = told(1, start, whole);
+  if (folder.world.rank() != 0) return;
+  EXPECT_EQ(numbers_in(checked, "and ([0-9]+) iterations"), numbers_in(done, "step +1 .*? ([0-9]+) iterations"));
+}
+
 TEST(Check, TellsTheTimeOfEquilibria) {
   const RunFolder folder;
   Parts parts;
