@@ -132,17 +132,15 @@ void Contact::check_where_due(const Kinematics& kinematics, double dt) {
 // The bound of the step and the friction on a point do not depend on how the other body is divided into blocks.
 
 void Contact::find_points_of_several() {
-  for (ContactPair& pair : contact_pairs_) pair.elsewhere.clear();
-  for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
-    for (std::size_t n = 0; n < m; ++n) {
-      ContactPair &one = contact_pairs_[m], &other = contact_pairs_[n];
-      if (one.surfaces || other.surfaces) continue;
+  for (ContactPair& one : contact_pairs_) {
+    one.elsewhere.clear();
+    for (std::size_t n = 0; n < contact_pairs_.size(); ++n) {
+      const ContactPair& other = contact_pairs_[n];
+      if (&one == &other || one.surfaces || other.surfaces) continue;
       const std::vector<int>&mine = one.pairs.owned, &others = other.pairs.owned;  // both ascending
-      for (std::size_t k = 0, l = 0; k < mine.size() && l < others.size();) {
-        const int i = mine[k], j = others[l];
-        if (i == j) one.elsewhere.push_back({k, n, l}), other.elsewhere.push_back({l, m, k});
-        if (i <= j) ++k;
-        if (j <= i) ++l;
+      for (std::size_t k = 0, l = 0; k < mine.size(); ++k) {
+        while (l < others.size() && others[l] < mine[k]) ++l;
+        if (l < others.size() && others[l] == mine[k]) one.elsewhere.push_back({k, n, l});
       }
     }
   }
@@ -159,9 +157,11 @@ bool of_same_bodies(const Domain& domain, const BlockPair& one, const BlockPair&
 
 }  // namespace
 
-// Sums the loads of all contact pairs on each point: all springs hold it at once, all its contacts share the impulse
-// that stops its sliding, and all blocks of the other body push its surface.
-std::vector<Load> Contact::loads_of_all(const Domain& domain, const ContactPair& contact_pair) const {
+// If any point touches several blocks, the sums of the loads of all contact pairs on each point, else empty: all
+// springs hold it at once, so that the stiffness bound includes them, all its contacts share the impulse that stops its
+// sliding, and all blocks of the other body push its surface.
+std::vector<Load> Contact::joined_loads(const Domain& domain, ContactPair& contact_pair) const {
+  if (contact_pair.elsewhere.empty()) return {};
   std::vector<Load> loads = contact_pair.loads;
   for (const auto& [k, pair, there] : contact_pair.elsewhere) {
     const ContactPair& other = contact_pairs_[pair];
@@ -171,14 +171,6 @@ std::vector<Load> Contact::loads_of_all(const Domain& domain, const ContactPair&
     if (other.model.friction > 0) loads[k].contacts += more.contacts;
     if (of_same_bodies(domain, contact_pair.blocks, other.blocks)) loads[k].push += more.push;
   }
-  return loads;
-}
-
-// loads_of_all if any point touches several blocks, else empty. The stiffness bound then includes all springs of a
-// point.
-std::vector<Load> Contact::joined_loads(const Domain& domain, ContactPair& contact_pair) const {
-  if (contact_pair.elsewhere.empty()) return {};
-  std::vector<Load> loads = loads_of_all(domain, contact_pair);
   double& stiffness = contact_pair.result.stiffness;
   for (const Load& load : loads) stiffness = std::max(stiffness, largest_eigenvalue(load.springs, stiffness));
   return loads;

@@ -146,7 +146,6 @@ class Contact {
                            const std::vector<Load>& loads, ContactPair& contact_pair,
                            std::vector<Vector>& force_density);
   void find_points_of_several();
-  std::vector<Load> loads_of_all(const Domain& domain, const ContactPair& contact_pair) const;
   std::vector<Load> joined_loads(const Domain& domain, ContactPair& contact_pair) const;
 
   std::vector<ContactPair> contact_pairs_;

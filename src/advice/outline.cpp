@@ -71,17 +71,11 @@ double mass_of(const Body& body) {
   return body.domain.communicator.sum(mass);
 }
 
-struct WaveSpeeds {
-  double least = std::numeric_limits<double>::infinity(), most = 0;  // m/s, of all blocks
-};
-
-WaveSpeeds wave_speeds(const Body& body) {
-  WaveSpeeds speeds;
-  for (const MaterialBlock& block : body.blocks) {
-    speeds.least = std::min(speeds.least, wave_speed(block.material));
-    speeds.most = std::max(speeds.most, wave_speed(block.material));
-  }
-  return speeds;
+// The least and the largest of all blocks, m/s.
+std::ranges::minmax_result<double> wave_speeds(const Body& body) {
+  std::vector<double> speeds;
+  for (const MaterialBlock& block : body.blocks) speeds.push_back(wave_speed(block.material));
+  return std::ranges::minmax(speeds);
 }
 
 // Velocities of all points at the start, m/s.
@@ -337,7 +331,7 @@ std::string sudden_stretches(const Situation& situation) {
   const Scene& scene = situation.scene;
   if (scene.quasi_static || situation.deck.start_from) return "";
   const double start = situation.start, duration = situation.duration;
-  const double fastest = wave_speeds(scene.body).most;
+  const double fastest = wave_speeds(scene.body).max;
   const Eigen::AlignedBox3d velocities = velocities_of(situation.trajectories);
   std::ostringstream text;
   text.precision(4);

@@ -310,18 +310,13 @@ Vector push_of_plane(const std::vector<Hold>& holds, int condition) {
 
 namespace {
 
-// The condition as one of type Type, else null.
-template <class Type>
-const Type* of_kind(const deck::Condition& condition) {
-  return std::get_if<Type>(&condition.kind);
-}
-
 std::vector<int> axes_of(const deck::Condition& condition) {
-  if (const auto* one = of_kind<PrescribedMotion>(condition)) return one->components;
-  if (const auto* one = of_kind<InitialVelocity>(condition)) return one->components;
-  if (const auto* one = of_kind<InitialDisplacement>(condition)) return one->components;
-  if (const auto* one = of_kind<BodyForce>(condition)) return one->components;
-  return {};
+  return std::visit(
+      [](const auto& one) {
+        if constexpr (requires { one.components; }) return one.components;
+        return std::vector<int>();
+      },
+      condition.kind);
 }
 
 std::vector<int> common(const std::vector<int>& some, const std::vector<int>& others) {
@@ -353,7 +348,7 @@ std::string let_the_last_count(const deck::Deck& deck, const Body& body, PointsO
 }
 
 std::string temperatures_without_effect(const deck::Deck& deck, const Body& body, const PointsOfConditions& points) {
-  const auto heat = [&](std::size_t c) { return of_kind<PrescribedTemperature>(deck.conditions[c]); };
+  const auto heat = [&](std::size_t c) { return std::get_if<PrescribedTemperature>(&deck.conditions[c].kind); };
   const auto changes = [&](std::size_t c) { return heat(c) && heat(c)->value.depends_on_time(); };
   PointsOfConditions left(points.size()), kept(points.size());
   for (std::size_t c = 0; c < points.size(); ++c) {
