@@ -291,70 +291,132 @@ void UserLaw::advance(int points, const double* dt, const double* rate, const do
   }
 }
 
-LibraryTrial tried(const UserLaw& given) {
-  constexpr double strain = 1e-7, dt = 1e-6;
-  LibraryTrial found;
-  UserLaw law = given;
-  law.tells_energy = true;
-  const auto wrong = [&](const std::string& what) { found.problem = found.problem.empty() ? what : found.problem; };
-  std::ostringstream text;
-  text.precision(4);
-  const Moduli moduli = law.moduli();
+namespace {
+
+constexpr double trial_strain = 1e-7;
+constexpr double trial_step = 1e-6;       // s
+constexpr double given_constants = 0.01;  // tolerance of elastic constants that are given to two or three digits
+
+Symmetric identity() {
   Symmetric unit = Symmetric::Zero();
   unit.head<3>().setOnes();
+  return unit;
+}
 
+// Pa, the largest stiffness by the elastic constants.
+double stiffness_given(const UserLaw& law) { return std::max(3 * law.moduli().bulk, 2 * law.moduli().shear); }
+
+std::string problem_at_rest(const UserLaw& law) {
   UserLaw::State rest;
   std::fill(rest.user + law.states, rest.user + most, guard);  // which it must leave alone
-  const PointStress still = law.step(PointStep{Symmetric::Zero(), dt, 1, unit}, Symmetric::Zero(), rest);
-  if (!still.converged) wrong("in a step without strain " + std::string(complaint));
+  const PointStep step{Symmetric::Zero(), trial_step, 1, identity()};
+  const PointStress still = law.step(step, Symmetric::Zero(), rest);
+  if (!still.converged) return "in a step without strain " + std::string(complaint);
   const double large = still.stress.cwiseAbs().maxCoeff();
-  if (large > 1e-9 * moduli.bulk) {
-    text << "gives a stress of " << large << " Pa in a step of the undeformed state without strain; expected none";
-    wrong(text.str());
-  }
-  if (!found.problem.empty()) return found;
+  if (!(large > 1e-9 * law.moduli().bulk)) return "";
+  std::ostringstream text;
+  text.precision(4);
+  text << "gives a stress of " << large << " Pa in a step of the undeformed state without strain; expected none";
+  return text.str();
+}
 
-  StretchTangent stiffness;
+struct TriedStiffness {
+  StretchTangent stiffness = StretchTangent::Zero();  // Pa, of small strains of the undeformed state
+  double softest = 0, stiffest = 0;
+  bool found = true, tells_energy = false;
+};
+
+// In steps of dt (s).
+TriedStiffness tried_stiffness(UserLaw law, double dt) {
+  TriedStiffness tried;
+  law.tells_energy = true;
   for (int c = 0; c < 6; ++c) {
     Symmetric d = Symmetric::Zero();
-    d[c] = c < 3 ? strain : 0.5 * strain;  // an engineering shear strain
+    d[c] = c < 3 ? trial_strain : 0.5 * trial_strain;  // an engineering shear strain
     UserLaw::State state;
-    const Symmetric stretch = unit + d;
+    const Symmetric stretch = identity() + d;
     const PointStress next =
         law.step(PointStep{d / dt, dt, to_tensor(stretch).determinant(), stretch}, Symmetric::Zero(), state);
     if (!next.converged) {
-      wrong("for a strain of 1e-7 " + std::string(complaint));
-      return found;
+      tried.found = false;
+      return tried;
     }
-    if (state.stored > 0) found.tells_energy = true;
-    stiffness.col(c) = next.stress / strain;
+    if (state.stored > 0) tried.tells_energy = true;
+    tried.stiffness.col(c) = next.stress / trial_strain;
   }
-  const double size = stiffness.cwiseAbs().maxCoeff();
-  const StretchTangent even = 0.5 * (stiffness + stiffness.transpose());
+  const StretchTangent even = 0.5 * (tried.stiffness + tried.stiffness.transpose());
   const auto stiffnesses = Eigen::SelfAdjointEigenSolver<StretchTangent>(even).eigenvalues();
-  const double stiffest = stiffnesses.maxCoeff(), softest = stiffnesses.minCoeff();
-  const double expected = std::max(3 * moduli.bulk, 2 * moduli.shear);
-  const double tolerance = 0.01;  // of elastic constants that are given to two or three digits
-  if (softest < -1e-3 * expected) {
-    text << "has an elastic stiffness of " << softest
-         << " Pa in some direction, which lets no body stand; expected none "
-         << "below 0: are its signs, and the order of its components, those of its interface?";
-    wrong(text.str());
-  } else if (stiffest > (1 + tolerance) * expected) {
-    text << "is stiffer, " << stiffest << " Pa, than its elastic constants say, " << expected
-         << " Pa (the larger of 3 K and 2 G): the time step would be too long for it; expected elastic constants that "
-            "are not smaller than the law's";
-    wrong(text.str());
-  } else if (stiffest < (1 - 10 * tolerance) * expected) {
-    text << "is softer, " << stiffest << " Pa, than its elastic constants say, " << expected
-         << " Pa (the larger of 3 K and 2 G): time steps will be shorter than necessary, contact and stabilization "
-            "stiffer; are its constants in Pa?";
-    found.warning = text.str();
+  tried.stiffest = stiffnesses.maxCoeff(), tried.softest = stiffnesses.minCoeff();
+  return tried;
+}
+
+std::string if_unstable(const UserLaw& law, const TriedStiffness& tried) {
+  if (!(tried.softest < -1e-3 * stiffness_given(law))) return "";
+  std::ostringstream text;
+  text.precision(4);
+  text << "has an elastic stiffness of " << tried.softest
+       << " Pa in some direction, which lets no body stand; expected none "
+       << "below 0: are its signs, and the order of its components, those of its interface?";
+  return text.str();
+}
+
+std::string if_soft(const UserLaw& law, const TriedStiffness& tried) {
+  const double expected = stiffness_given(law);
+  if (!(tried.stiffest < (1 - 10 * given_constants) * expected)) return "";
+  std::ostringstream text;
+  text.precision(4);
+  text << "is softer, " << tried.stiffest << " Pa, than its elastic constants say, " << expected
+       << " Pa (the larger of 3 K and 2 G): time steps will be shorter than necessary, contact and stabilization "
+          "stiffer; are its constants in Pa?";
+  return text.str();
+}
+
+std::string if_unsymmetric(const TriedStiffness& tried) {
+  const double size = tried.stiffness.cwiseAbs().maxCoeff();
+  if (!((tried.stiffness - tried.stiffness.transpose()).cwiseAbs().maxCoeff() > 1e-3 * size)) return "";
+  return "has an unsymmetric elastic stiffness, so that it has no elastic energy; are its components in the order of "
+         "its interface?";
+}
+
+}  // namespace
+
+// Uniaxial strain, as in the fastest waves, has a limit of its own: the usual safety factor, 0.8, leaves 56 %, and
+// leapfrog steps bear half as much by viscosity, whose velocities are older.
+std::string stiffer_in(const UserLaw& law, double dt) {
+  constexpr double by_viscosity = 1.25;
+  const TriedStiffness tried = tried_stiffness(law, dt);
+  if (!tried.found) return "";
+  const double uniaxial = tried.stiffness.diagonal().head<3>().maxCoeff(), wave = law.bulk + 4 * law.shear / 3;
+  const bool in_some = tried.stiffest > (1 + given_constants) * stiffness_given(law);
+  if (!in_some && !(uniaxial > by_viscosity * wave)) return "";
+  std::ostringstream text;
+  text.precision(4);
+  text << "is stiffer, " << (in_some ? tried.stiffest : uniaxial) << " Pa, than its elastic constants say, "
+       << (in_some ? stiffness_given(law) : wave) << " Pa (" << (in_some ? "the larger of 3 K and 2 G" : "K + 4/3 G")
+       << "), in a step of " << dt << " s";
+  return text.str();
+}
+
+std::string too_stiff_in(const UserLaw& law, double dt) {
+  const std::string stiff = stiffer_in(law, dt);
+  if (stiff.empty()) return stiff;
+  return stiff +
+         ": the time step would be too long for it; expected elastic constants that are not smaller than the law's";
+}
+
+LibraryTrial tried(const UserLaw& law) {
+  LibraryTrial found;
+  found.problem = problem_at_rest(law);
+  if (!found.problem.empty()) return found;
+  const TriedStiffness trial = tried_stiffness(law, trial_step);
+  if (!trial.found) {
+    found.problem = "for a strain of 1e-7 " + std::string(complaint);
+    return found;
   }
-  if ((stiffness - stiffness.transpose()).cwiseAbs().maxCoeff() > 1e-3 * size) {
-    found.warning += std::string(found.warning.empty() ? "" : "; it ") +
-                     "has an unsymmetric elastic stiffness, so that it has no elastic energy; are its components in "
-                     "the order of its interface?";
+  found.tells_energy = trial.tells_energy;
+  found.problem = if_unstable(law, trial);
+  for (const std::string& warning : {if_soft(law, trial), if_unsymmetric(trial)}) {
+    if (!warning.empty()) found.warning += (found.warning.empty() ? "" : "; it ") + warning;
   }
   return found;
 }

@@ -113,7 +113,13 @@ struct LibraryTrial {
 };
 
 // Calls the library for steps of an undeformed point: no strain must give no stress, small strains a finite and
-// symmetric stiffness that is no greater than that of the elastic constants, and no state beyond its own may change.
+// symmetric stiffness, and no state beyond its own may change.
 LibraryTrial tried(const UserLaw& law);
+
+// Whether it is stiffer than its elastic constants in steps of dt (s): by viscosity it is the stiffer the shorter they
+// are. "is stiffer, … Pa, than its elastic constants say, … in a step of … s", or "".
+std::string stiffer_in(const UserLaw& law, double dt);
+// The same with what it means for explicit steps, which are as long as the elastic constants allow.
+std::string too_stiff_in(const UserLaw& law, double dt);
 
 }  // namespace strut::materials

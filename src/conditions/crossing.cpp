@@ -15,8 +15,8 @@ constexpr double least_depth = 1e-3;       // of a spacing: least depth in the t
 
 // The least gap on the segment from a to b, along which the gap is convex, by ternary search.
 template <class S>
-double least_gap(const S& shape, Vector a, Vector b) {
-  for (int k = 0; k < 30; ++k) {
+double least_gap(const S& shape, Vector a, Vector b, int thirds = 30) {
+  for (int k = 0; k < thirds; ++k) {
     const Vector low = a + (b - a) / 3, high = b - (b - a) / 3;
     if (surface(shape, low).gap < surface(shape, high).gap) {
       b = high;
@@ -87,20 +87,26 @@ Shape moved(const Shape& shape, const Vector& by) {
   return there;
 }
 
-// The distance from a convex shape is a convex function along the axis: ternary search finds its minimum.
-double gap(const Cylinder& roll, const Shape& other) {
-  constexpr double far = 1e4;  // m, longer than any tool
-  const auto from = [&](double s) { return surface(other, Vector(roll.point + s * roll.axis)).gap; };
-  double low = -far, high = far;
-  for (int n = 0; n < 200; ++n) {
-    const double third = (high - low) / 3;
-    if (from(low + third) < from(high - third)) {
-      high -= third;
-    } else {
-      low += third;
-    }
-  }
-  return from(0.5 * (low + high)) - roll.radius;
+// Rolls have no ends: those that are not parallel to a plane meet it somewhere.
+double gap(const Cylinder& roll, const HalfSpace& half) {
+  const bool parallel = std::abs(roll.axis.dot(half.normal)) < digits_of_decks;
+  return parallel ? surface(half, roll.point).gap - roll.radius : -1;
+}
+
+double gap(const Cylinder& roll, const Cylinder& other) {
+  const Vector between = other.point - roll.point, across = roll.axis.cross(other.axis);
+  const bool parallel = across.norm() < digits_of_decks;
+  const double apart = parallel ? between.cross(roll.axis).norm() : std::abs(between.dot(across.normalized()));
+  return apart - roll.radius - other.radius;
+}
+
+// The distance from a convex shape is a convex function along the axis: ternary search finds its minimum, which is
+// where a point of the box is projected.
+double gap(const Cylinder& roll, const Box& box) {
+  const Vector center = 0.5 * (box.lower + box.upper);
+  const Vector middle = roll.point + roll.axis * roll.axis.dot(center - roll.point);
+  const Vector reach = roll.axis * (box.upper - box.lower).norm();
+  return least_gap(box, middle - reach, middle + reach, 100) - roll.radius;
 }
 
 double gap(const HalfSpace& half, const HalfSpace& other) {
@@ -120,8 +126,10 @@ double gap(const Box& box, const Box& other) {
 }
 
 double gap(const Shape& one, const Shape& other) {
-  if (const auto* roll = std::get_if<Cylinder>(&one)) return gap(*roll, other);
-  if (std::holds_alternative<Cylinder>(other)) return gap(std::get<Cylinder>(other), one);
+  if (const auto* roll = std::get_if<Cylinder>(&one)) {
+    return std::visit([roll](const auto& shape) { return gap(*roll, shape); }, other);
+  }
+  if (std::holds_alternative<Cylinder>(other)) return gap(other, one);
   if (const auto* box = std::get_if<Box>(&one)) {
     if (const auto* half = std::get_if<HalfSpace>(&other)) return gap(*box, *half);
     return gap(*box, std::get<Box>(other));

@@ -1,5 +1,6 @@
 #include "deck/deck.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include "base/errors.hpp"
@@ -15,6 +16,7 @@
 #include "deck/sections/node_sets.hpp"
 #include "deck/sections/several_sections.hpp"
 #include "deck/yaml.hpp"
+#include "materials/user_law.hpp"
 
 namespace strut::deck {
 
@@ -101,6 +103,27 @@ std::vector<ReadFile> read_files(const Deck& deck, const std::vector<fs::path>& 
   return read;
 }
 
+// In the longest steps that the run may take. The length of explicit ones is known once there are points
+// (first_step.hpp); equilibria have their load steps.
+void check_stiffness(const Deck& deck, Problems& problems) {
+  const Solver& solver = deck.next_solver ? *deck.next_solver : deck.solver;
+  const double duration = solver.duration();
+  if (!(duration > 0)) return;
+  for (const Material& material : deck.materials) {
+    const auto* law = std::get_if<materials::UserLaw>(&material.law);
+    const std::string where = "Materials > " + material.name + " > Library";
+    if (!law || problems.about(where)) continue;
+    const std::string file = "'" + law->function.file + "' ";
+    if (!solver.quasi_static) {
+      const std::string stiff = materials::too_stiff_in(*law, solver.fixed_dt.value_or(duration));
+      if (!stiff.empty()) problems.add(where, file + stiff);
+    } else {
+      const std::string stiff = materials::stiffer_in(*law, duration / std::max(solver.quasi_static->load_steps, 1));
+      if (!stiff.empty()) problems.note(where, file + stiff + ": stabilization and contact will be softer");
+    }
+  }
+}
+
 // Files are checked on one rank only: other ranks may not see them, and need not.
 void look_at_files(Deck& deck, const std::vector<fs::path>& tables, Problems& problems) {
   check_mesh(deck.discretization.mesh, problems);
@@ -113,6 +136,7 @@ void look_at_files(Deck& deck, const std::vector<fs::path>& tables, Problems& pr
   }
   read_numbers(deck.node_sets, problems);
   load_user_libraries(deck.materials, deck.file.parent_path(), problems);
+  check_stiffness(deck, problems);
   check_files(written_files(deck), read_files(deck, tables), problems);
 }
 

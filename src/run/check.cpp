@@ -12,6 +12,7 @@
 #include "checkpoint/checkpoint.hpp"
 #include "deck/deck.hpp"
 #include "output/variables.hpp"
+#include "run/first_step.hpp"
 #include "run/input.hpp"
 #include "run/report.hpp"
 #include "run/simulation.hpp"
@@ -72,6 +73,7 @@ std::string check_steps(const deck::Deck& deck, Scene& scene) {
                            deck.solver.initial_time, std::move(scene.fracture));
   const double limit = solver.critical_time_step();
   check_step_at(deck.solver.initial_time, scene.control, limit);
+  check_libraries(scene.body, scene.control, limit);
   const double first = measured_step(deck, solver);
   const double moving = std::max(first, measured_moving_step(deck, solver, scene.body));
   const double dt = scene.control.fixed_dt > 0 ? scene.control.fixed_dt : scene.control.safety_factor * limit;

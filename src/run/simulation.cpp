@@ -11,6 +11,7 @@
 #include "mechanics/serialize.hpp"
 #include "output/variables.hpp"
 #include "run/balance.hpp"
+#include "run/first_step.hpp"
 #include "run/input.hpp"
 #include "run/monitor.hpp"
 #include "run/repartition.hpp"
@@ -201,6 +202,7 @@ void Run::Parts::begin() {
   if (const auto ranks = balance.take_restored_ranks()) repartition({deck, scene, steps, writers}, *ranks);
   say(communicator, critical_time_step_line(steps->critical_time_step()));
   check_step_at(steps->time(), scene->control, steps->critical_time_step());
+  if (before == 0) check_libraries(scene->body, scene->control, steps->critical_time_step());
   progress.emplace(communicator, deck.solver.initial_time, time(), deck.solver.final_time);
 }
 

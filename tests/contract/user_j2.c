@@ -90,6 +90,25 @@ void vumat_(int* nblock, int* ndir, int* nshr, int* nstatev, int* nfieldv, int* 
   }
 }
 
+/* Kelvin & Voigt: the third constant is a viscosity, Pa s. */
+void viscous(const struct strut_step* step) {
+  const int n = step->points;
+  int p, c;
+  for (p = 0; p < n; ++p) {
+    const double K = step->constants[0], G = step->constants[1], viscosity = step->constants[2];
+    double rate[6], strain[6], volume, speed;
+    for (c = 0; c < 6; ++c) {
+      rate[c] = step->rate[c * n + p];
+      strain[c] = step->strain[c * n + p] + rate[c] * step->dt[p];
+    }
+    volume = (strain[0] + strain[1] + strain[2]) / 3, speed = (rate[0] + rate[1] + rate[2]) / 3;
+    for (c = 0; c < 6; ++c) {
+      step->stress[c * n + p] = (c < 3 ? 3 * K * volume : 0) + 2 * G * (strain[c] - (c < 3 ? volume : 0)) +
+                                2 * viscosity * (rate[c] - (c < 3 ? speed : 0));
+    }
+  }
+}
+
 /* Faults that the trial at the start of a run must find. */
 void prestressed(const struct strut_step* step) {
   int p;

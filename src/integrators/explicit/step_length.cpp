@@ -21,6 +21,8 @@ constexpr int renewal_steps = 1000;
 constexpr int steps_a_renewal = 100, most_allowed = 10 * steps_a_renewal;
 
 constexpr double round_off = 1e-6;  // of a step: times are sums over up to millions of steps
+// s, of a run that begins late, where this is more
+double round_off_at(double time) { return 4 * std::numeric_limits<double>::epsilon() * std::abs(time); }
 
 // When an estimate of the critical time step has been renewed, the step grows only if it can by this factor, and only
 // to the least value that was allowed since the previous estimate.
@@ -70,7 +72,9 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
                 steps_since_estimate_ >= renewal_steps || exposed_are_pushed || (bonds_broke_ && allowance_ >= 0);
   if (control_.fixed_dt > 0) {
     // The remainder that round-off leaves after the last full step is not a step of its own.
-    dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
+    const bool is_last =
+        left < control_.fixed_dt * (1 + round_off) || left - control_.fixed_dt < round_off_at(final_time);
+    dt_ = is_last ? left : control_.fixed_dt;
   } else {
     // Equal steps to the end, because a jump of dt at the last step would cost energy.
     const double longest = longest_step(contact_stiffness, body.may_break(), estimated);
@@ -79,7 +83,8 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
           "Solver > Verlet: nothing limits the time step: no point has neighbors or touches another, or stiffness is "
           "nothing beside the Density; expected a Fixed dt");
     }
-    dt_ = left / std::ceil(left / longest * (1 - round_off));
+    const double count = std::min(left / longest * (1 - round_off), (left - round_off_at(final_time)) / longest);
+    dt_ = left / std::max(std::ceil(count), 1.0);
     if (levels_anew_) step_of_bound_ = dt_;
     levels_anew_ = false;
   }

@@ -137,6 +137,30 @@ TEST(UserLibrary, ThatCannotBeUsedIsRefused) {
   }
 }
 
+// By a viscosity of 200 ns times G it is hardly stiffer in a step as long as the run, but far stiffer in those that the
+// run takes, some 100 ns. Equilibria with load steps of 600 s may have one of 100 s.
+TEST(UserLibrary, ThatIsTooStiffInTheFirstStepIsRefusedThere) {
+  const auto error_in = [](double relaxation_time, const std::string& until, const std::string& solver) {
+    const RunFolder folder;
+    const std::string viscous = from_library("strut", key("Function", "viscous"));
+    Parts parts = striking(changed(viscous, "100e6", number(relaxation_time * shear)), "Correspondence");
+    parts.times = key("Final Time", until);
+    if (solver == "QuasiStatic") parts.conditions = along("hold", "Prescribed Displacement", "all", "xyz", "0");
+    if (solver == "QuasiStatic") parts.verlet = key("Number of Load Steps", "1");
+    std::string error;
+    try {
+      run(folder.write("deck.xml", changed(parts.text(), R"(name="Verlet")", "name=\"" + solver + "\"")), folder.world);
+    } catch (const Error& found) {
+      error = found.what();
+    }
+    return error;
+  };
+  const std::string error = error_in(2e-7, "3e-6", "Verlet");
+  EXPECT_NE(error.find("Materials > copper > Library: '"), std::string::npos) << error;
+  EXPECT_NE(error.find("is stiffer, "), std::string::npos) << error;
+  EXPECT_EQ(error_in(100, "600", "QuasiStatic"), "");
+}
+
 // A library that has been compiled anew has other bytes; one more byte at the end of a file changes nothing but these.
 TEST(UserLibrary, ThatHasChangedIsNotThatOfTheCheckpoint) {
   const RunFolder folder;

@@ -74,5 +74,22 @@ TEST(Signal, OfAnEarlierRunIsForgotten) {
   EXPECT_TRUE(signalled_run(folder, "1e-6", "a text that no run says"));
 }
 
+// After a day, doubles are 15 ps apart, 1e-4 of a step; each step is rounded to them.
+TEST(LastSteps, AreAsLongAsTheOthersWhenTimesAreLate) {
+  constexpr double begin = 86400;
+  const RunFolder folder;
+  Parts parts;
+  parts.times = key("Initial Time", "86400") + key("Final Time", "86400.000003");
+  Simulation run(folder, parts);
+  std::vector<double> steps;
+  while (run.solver.time() < begin + 3e-6 - 1e-10) {
+    run.solver.advance_velocity(begin + 3e-6);
+    steps.push_back(run.solver.dt());
+    run.solver.advance_position(false);
+  }
+  EXPECT_GT(steps.size(), 10u);
+  for (const double dt : steps) EXPECT_NEAR(dt, steps[0], 2e-3 * steps[0]);
+}
+
 }  // namespace
 }  // namespace strut::regression

@@ -148,12 +148,21 @@ TEST(ToolGap, IsTheDistanceBetweenTwoTools) {
   EXPECT_EQ(gap(box, Box{Vector(1.5, 5, 2), Vector(2, 6, 3)}), 4);
   EXPECT_LT(gap(floor, HalfSpace{Vector(0, 0, 9), Vector::UnitX()}), 0) << "which meet somewhere";
   EXPECT_LT(gap(floor, HalfSpace{Vector::Zero(), Vector::UnitZ()}), 0);
-  constexpr double found = 1e-9;  // places on an axis of 1e4 m are known to 1e-12, far from where they matter
+  constexpr double found = 1e-9;  // round-off of places that are thousands of km away
   const Cylinder roll{Vector(7, 0, 6), Vector::UnitX(), 0.5};
   EXPECT_NEAR(gap(roll, floor), 4.5, found);
   EXPECT_NEAR(gap(roll, Cylinder{Vector(1, 8, 9), Vector::UnitY(), 1}), 1.5, found);
   EXPECT_NEAR(gap(roll, box), 2.5, found);
   EXPECT_LT(gap(roll, Box{Vector(-3, -1, 5), Vector(-2, 1, 7)}), 0);
+  for (const double along : {-3e4, 12e3, 1e6}) {  // the point that a deck gives for an axis is any of it
+    const Cylinder same{Vector(along, 0, 6), Vector::UnitX(), 0.5};
+    EXPECT_NEAR(gap(same, floor), 4.5, found);
+    EXPECT_NEAR(gap(same, Cylinder{Vector(1, 8, 9), Vector::UnitY(), 1}), 1.5, found);
+    EXPECT_NEAR(gap(same, Cylinder{Vector(1, 4, 9), Vector::UnitX(), 1}), 3.5, found);
+    EXPECT_NEAR(gap(same, box), 2.5, found);
+    EXPECT_LT(gap(same, Box{Vector(-3, -1, 5), Vector(-2, 1, 7)}), 0);
+  }
+  EXPECT_LT(gap(floor, Cylinder{Vector(0, 0, 6), Vector(0.8, 0, 0.6), 1}), 0) << "which meet somewhere";
 }
 
 }  // namespace
