@@ -7,6 +7,7 @@
 #include "base/archive.hpp"
 #include "base/errors.hpp"
 #include "fracture/fracture.hpp"
+#include "integrators/explicit/step_length.hpp"
 #include "verification/loading.hpp"
 
 namespace strut {
@@ -164,6 +165,18 @@ struct Strip : Loaded {
 
   std::optional<QuasiStatic> solver;
 };
+
+// What a forecast counts before the first step in which bonds may break, and the first estimate of the time step.
+TEST(Fracture, ForecastsTheStatesThatAreKept) {
+  const Communicator world;
+  Body body = plane_body(Strip::spec_of(kinds[1]), world);
+  const Fracture fracture(body);
+  EXPECT_EQ(StepLength::bytes(body) - CriticalTimeStep::bytes(body), body.force_states.bytes());
+  const double all = fracture.bytes(body);
+  const auto kept = static_cast<double>(body.domain.sites.size() * sizeof(GradientState));
+  body.force_states.gradients.clear();
+  EXPECT_EQ(all - fracture.bytes(body), kept);
+}
 
 class InAStrip : public ::testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(By, InAStrip, ::testing::ValuesIn(kinds), [](const auto& info) { return info.param.name; });
