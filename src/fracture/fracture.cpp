@@ -372,9 +372,10 @@ void Fracture::count_springs(Body& body) {
   affected_.clear();
 }
 
-double Fracture::bytes() const {
+double Fracture::bytes(const Body& body) const {
   return static_cast<double>(limits_.size() * (sizeof(Vector) + 2 * sizeof(double)) + 2 * due_.size() * sizeof(double) +
-                             whole_volume_.size() * (3 * sizeof(double) + sizeof(std::vector<int>))) +
+                             whole_volume_.size() * (3 * sizeof(double) + sizeof(std::vector<int>)) +
+                             body.force_states.gradients.size() * sizeof(GradientState)) +
          energies_.bytes() + fitted_.bytes() + averaged_.bytes() + travel_.bytes();
 }
 

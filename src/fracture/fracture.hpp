@@ -60,7 +60,7 @@ class Fracture : public BondBreaking {
   // Collective. The largest stretch of a bond over the one at which it breaks, at the present positions.
   double largest_stretch(const Body& body) const;
 
-  double bytes() const;
+  double bytes(const Body& body) const;  // also of what steps add, in which bonds may break
 
   void serialize(Archive& archive, Body& body);  // collective
 

@@ -16,6 +16,7 @@
 #include "base/timing.hpp"
 #include "fracture/fracture.hpp"
 #include "fracture/fragments.hpp"
+#include "integrators/explicit/step_length.hpp"
 #include "mechanics/make_body.hpp"
 
 namespace strut {
@@ -94,8 +95,8 @@ void Progress::finish() {
 
 double predicted_memory(const Scene& scene) {
   const double solver =
-      scene.quasi_static ? QuasiStatic::bytes(scene.body, *scene.quasi_static) : CriticalTimeStep::bytes(scene.body);
-  const double fracture = scene.fracture ? scene.fracture->bytes() : 0;
+      scene.quasi_static ? QuasiStatic::bytes(scene.body, *scene.quasi_static) : StepLength::bytes(scene.body);
+  const double fracture = scene.fracture ? scene.fracture->bytes(scene.body) : 0;
   return scene.body.domain.communicator.sum(footprint(scene.body) + fracture + solver);
 }
 

@@ -43,6 +43,10 @@ double StepLength::wanted(double contact_stiffness) const {
   return control_.fixed_dt > 0 ? control_.fixed_dt : control_.safety_factor * critical(contact_stiffness);
 }
 
+double StepLength::bytes(const Body& body) {
+  return CriticalTimeStep::bytes(body) + (body.may_break() ? body.force_states.bytes() : 0);
+}
+
 void StepLength::estimate(Body& body) {
   // The estimate overwrites the force states; a break in the next step needs them.
   std::optional<ForceStates> kept;

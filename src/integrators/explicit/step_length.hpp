@@ -24,6 +24,9 @@ class StepLength {
  public:
   explicit StepLength(const StepControl& control) : control_(control) {}
 
+  // Memory that estimates take on this rank, bytes.
+  static double bytes(const Body& body);
+
   double dt() const { return dt_; }                    // s, of the present or next step
   double previous_dt() const { return previous_dt_; }  // s, of the previous step; 0 before the first
   double next_time() const { return next_time_; }      // s, at the end of that step

@@ -202,10 +202,27 @@ void QuasiStatic::commit(EquilibriumSearch search) {
   if (!control_.with_tangent || was_easy) dt_ = std::min(growth * dt_, longest_);
 }
 
+namespace {
+
+// While it lives, nobody asks a search to stop.
+class Uninterrupted {
+ public:
+  explicit Uninterrupted(Observer& observer)
+      : observer_(observer), before_(std::exchange(observer.stop_requested, [] { return false; })) {}
+  Uninterrupted(const Uninterrupted&) = delete;
+  ~Uninterrupted() { observer_.stop_requested = std::move(before_); }
+
+ private:
+  Observer& observer_;
+  std::function<bool()> before_;
+};
+
+}  // namespace
+
 // Bonds beyond their limit break at once, while conditions rest; the body goes to its next equilibrium, in which others
 // may be beyond theirs. Returns how many broke. It is not interrupted: between its equilibria a run could not go on.
 std::int64_t QuasiStatic::settle(EquilibriumSearch& search) {
-  const auto stop_requested = std::exchange(observer_.stop_requested, [] { return false; });
+  const Uninterrupted until_it_rests(observer_);
   std::int64_t all = 0;
   while (const std::int64_t broken = equilibrium_.break_bonds()) {
     all += broken;
@@ -217,7 +234,6 @@ std::int64_t QuasiStatic::settle(EquilibriumSearch& search) {
     in_jumps_ += equilibrium_.body().domain.communicator.sum(equilibrium_.work_of_jump());
     equilibrium_.commit();
   }
-  observer_.stop_requested = stop_requested;
   return all;
 }
 

@@ -18,6 +18,8 @@ class QuasiStatic {
   QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
               double initial_time, double final_time, Observer observer, std::optional<Fracture> fracture = {});
 
+  QuasiStatic(const QuasiStatic&) = delete;  // its searches refer to its other members
+
   // Memory that the search for equilibria takes on this rank, bytes.
   static double bytes(const Body& body, const QuasiStaticControl& control);
 

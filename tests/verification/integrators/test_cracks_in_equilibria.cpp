@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "base/archive.hpp"
+#include "base/errors.hpp"
 #include "fracture/fracture.hpp"
+#include "integrators/explicit/step_length.hpp"
 #include "verification/loading.hpp"
 
 namespace strut {
@@ -69,6 +71,27 @@ TEST(BreakingEquilibria, TheBondThatIsLeftLosesItsEnergy) {
   EXPECT_GT(end.fracture + end.jumps, held);
   EXPECT_NEAR(end.fracture / (end.fracture + end.jumps), broken / (first + second), 1e-6);
   EXPECT_NEAR(end.external, end.fracture + end.jumps, 1e-9 * end.external);
+}
+
+// A force that grows draws the two free points from the held one: when the first bond has broken, nothing holds them.
+// The run ends; who asks a search to stop is heard again.
+TEST(BreakingEquilibria, ThatAreNotFoundLeaveTheirObserver) {
+  LatticeSpec spec{{3, 1, 1}, spacing, 1.3};
+  spec.material = brittle(Formulation::ordinary, NoStabilization(), DamageModel{Function(1.01e-2)});
+  Loaded row(spec, row_body);
+  const auto all = points_where(row.body, [](const Vector&) { return true; });
+  row.hold(all, Vector::UnitY());
+  row.hold(all, Vector::UnitZ());
+  row.move(points_where(row.body, [](const Vector& X) { return X[0] < 0.1 * spacing; }), 0, "0");
+  row.conditions.add(BodyForce{all, {0}, Function::parse("1e13*t")});
+  bool is_stopped = false;
+  Observer observer = nobody();
+  observer.stop_requested = [&] { return is_stopped; };
+  QuasiStatic solver(row.body, row.conditions, {}, {.load_steps = 4}, 0, 1, observer, fracture_of(row.body));
+  EXPECT_THROW(load(solver), Error);
+  EXPECT_GT(row.world.sum(broken_bonds(row.body)), 0);
+  is_stopped = true;
+  EXPECT_FALSE(solver.advance());
 }
 
 // ---- A crack in a strip --------------------------------------------------------------------------------------------
@@ -142,6 +165,18 @@ struct Strip : Loaded {
 
   std::optional<QuasiStatic> solver;
 };
+
+// What a forecast counts before the first step in which bonds may break, and the first estimate of the time step.
+TEST(Fracture, ForecastsTheStatesThatAreKept) {
+  const Communicator world;
+  Body body = plane_body(Strip::spec_of(kinds[1]), world);
+  const Fracture fracture(body);
+  EXPECT_EQ(StepLength::bytes(body) - CriticalTimeStep::bytes(body), body.force_states.bytes());
+  const double all = fracture.bytes(body);
+  const auto kept = static_cast<double>(body.domain.sites.size() * sizeof(GradientState));
+  body.force_states.gradients.clear();
+  EXPECT_EQ(all - fracture.bytes(body), kept);
+}
 
 class InAStrip : public ::testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(By, InAStrip, ::testing::ValuesIn(kinds), [](const auto& info) { return info.param.name; });
