@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "advice/lattice_axes.hpp"
 #include "topology/cell_edges.hpp"
 
 namespace strut {
@@ -14,7 +15,7 @@ namespace {
 // ---- Dilatation of ordinary solids ---------------------------------------------------------------------------------
 
 // True if less than a layer is missing on both sides along a direction. The next layer is that of the nearest neighbor
-// in a cone around it.
+// in a cone around it; without any, as across a single row or layer, surfaces are near.
 bool reaches_horizon(const Domain& domain, int i, const Vector& direction) {
   constexpr double narrow = 0.8;  // the cosine
   double ahead = 0, behind = 0, layer = std::numeric_limits<double>::infinity();
@@ -24,7 +25,7 @@ bool reaches_horizon(const Domain& domain, int i, const Vector& direction) {
     ahead = std::max(ahead, along), behind = std::max(behind, -along);
     if (std::abs(along) > narrow * xi.norm()) layer = std::min(layer, std::abs(along));
   });
-  return std::min(ahead, behind) > domain.horizon(i) - (1 - 1e-6) * layer;
+  return std::isfinite(layer) && std::min(ahead, behind) > domain.horizon(i) - (1 - 1e-6) * layer;
 }
 
 // True if a neighbor has less than a whole cell, as nodes at a surface have.
@@ -35,14 +36,16 @@ bool has_parts_of_cells(const Domain& domain, int i) {
 }
 
 // 3 K/tr K of an ordinary point, K = Σ ω V ξ⊗ξ: by how much its dilatation (3/m) Σ ω V |ξ| e counts strain along each
-// direction. Zero where a surface is near.
+// direction. Zero where a surface is near: along the axes of space, of K, or of the lattice, which a body's turn leaves
+// square to its faces.
 Tensor counts_of_strain(const Body& body, int i) {
   const Tensor inverse = to_tensor(body.shape_inverse[i]);
   if (!(inverse.trace() > 0) || has_parts_of_cells(body.domain, i)) return Tensor::Zero();
   const Tensor K = inverse.inverse();
   const Tensor axes = Eigen::SelfAdjointEigenSolver<Tensor>(K).eigenvectors();
+  const Tensor of_lattice = lattice_axes(body.domain, i);
   for (int c = 0; c < 3; ++c) {
-    for (const Vector& direction : {Vector(Vector::Unit(c)), Vector(axes.col(c))}) {
+    for (const Vector& direction : {Vector(Vector::Unit(c)), Vector(axes.col(c)), Vector(of_lattice.col(c))}) {
       if (!reaches_horizon(body.domain, i, direction)) return Tensor::Zero();
     }
   }

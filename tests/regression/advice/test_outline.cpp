@@ -663,6 +663,29 @@ TEST(OblongCells, OfOrdinaryPointsSurfacesAndCracksAreToldOf) {
   expect_told(told(itself), {dilatation, surfaces});
 }
 
+// Of points beside a surface that is oblique to the axes of space, and of a single row, the sums tell nothing.
+TEST(OblongCells, CubesOfTurnedAndThinBarsAreNone) {
+  const auto told = [](const Lattice& lattice, const Vector& factors, const Tensor& turn) {
+    const RunFolder folder(lattice);
+    write_stretched(folder, lattice, factors, turn);
+    Parts parts;
+    parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "3"));
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  const std::string cubic = "not on a cubic lattice";
+  const Lattice thick{.nx = 5, .ny = 5, .nz = 12}, row{.nx = 1, .ny = 1, .nz = 12}, cube{.nx = 8, .ny = 8, .nz = 8};
+  for (const double degrees : {0, 30, 45, 60}) {
+    for (const Vector& axis : {Vector(0, 0, 1), Vector(1, 1, 0)}) {
+      for (const Lattice& lattice : {thick, row}) {
+        const std::string said = told(lattice, Vector::Ones(), turned_by(degrees, axis));
+        EXPECT_EQ(said.find(cubic), std::string::npos) << degrees << " " << said;
+      }
+    }
+  }
+  expect_told(told(cube, {1, 1, 2}, turned_by(30, {1, 2, 3})), {cubic});
+}
+
 // Nodes of cubes, of which those at a surface have parts of a cell; one layer in the middle does not see past them.
 TEST(OblongCells, NodesAtASurfaceOfCubesAreNone) {
   Lattice lattice{.nx = 8, .ny = 8, .nz = 4};
