@@ -91,24 +91,26 @@ namespace {
 
 // ---- Surfaces and cracks -------------------------------------------------------------------------------------------
 
-// Means over the cells of a block with known edges, m; 0 without any.
+// Means over the cells of a block with known edges, m; 0 without any. Over whole cells where there are some.
 struct MeanEdges {
   double shortest = 0, spacing = 0, longest = 0;
 };
 
 std::vector<MeanEdges> mean_edges(const Domain& domain) {
-  std::vector<double> sums(4 * domain.blocks.size());
+  const std::size_t blocks = domain.blocks.size();
+  std::vector<double> sums(8 * blocks);  // of whole cells, then of parts
   for (int i = 0; i < domain.owned; ++i) {
     if (!has_known_edges(domain, i)) continue;
     const CellEdges edges = edges_of_cell(domain, i);
-    double* of_block = &sums[4 * domain.cloud.blocks[i]];
+    double* of_block = &sums[4 * (domain.cloud.blocks[i] + (has_whole_cell(domain, i) ? 0 : blocks))];
     of_block[0] += edges.shortest, of_block[1] += domain.cloud.spacings[i], of_block[2] += edges.longest, ++of_block[3];
   }
   domain.communicator.sum(sums);
   std::vector<MeanEdges> means;
-  for (std::size_t b = 0; b < sums.size(); b += 4) {
-    const double count = std::max(1.0, sums[b + 3]);
-    means.push_back({sums[b] / count, sums[b + 1] / count, sums[b + 2] / count});
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const double* of_block = &sums[4 * (sums[4 * b + 3] > 0 ? b : b + blocks)];
+    const double count = std::max(1.0, of_block[3]);
+    means.push_back({of_block[0] / count, of_block[1] / count, of_block[2] / count});
   }
   return means;
 }

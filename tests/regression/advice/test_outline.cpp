@@ -686,6 +686,26 @@ TEST(OblongCells, CubesOfTurnedAndThinBarsAreNone) {
   expect_told(told(cube, {1, 1, 2}, turned_by(30, {1, 2, 3})), {cubic});
 }
 
+// Nodes of cells twice as long as wide: of those at a face the parts of a cell are cubes.
+TEST(OblongCells, OfNodesHaveTheEdgesOfWholeCells) {
+  const auto told = [](const Lattice& lattice, double length, const Tensor& turn) {
+    const RunFolder folder(lattice);
+    write_stretched(folder, lattice, {length, 1, 1}, turn);
+    Parts parts;
+    parts.points = "Nodes";
+    parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key("Fracture Energy", "1e4"));
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "2") +
+                                        key("Damage Model", "brittle"));
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  const Lattice cube{.nx = 3, .ny = 3, .nz = 3}, plate{.nx = 4, .ny = 4, .nz = 1};
+  for (const Tensor& turn : {turned_by(0, {0, 0, 1}), turned_by(37, {1, 2, 3})}) {
+    expect_told(told(cube, 2, turn), {"the longest edge is 2 times the shortest"});
+    expect_told(told(cube, 1.4, turn), {"the longest edge is 1.4 times the shortest"});
+  }
+  expect_told(told(plate, 2, turned_by(0, {0, 0, 1})), {"its cells are no cubes"});
+}
+
 // Nodes of cubes, of which those at a surface have parts of a cell; one layer in the middle does not see past them.
 TEST(OblongCells, NodesAtASurfaceOfCubesAreNone) {
   Lattice lattice{.nx = 8, .ny = 8, .nz = 4};
