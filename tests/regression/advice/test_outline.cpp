@@ -613,8 +613,10 @@ TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
 // By bond energy 0.257, 0.468 of the fracture energy were seen where plates of one and two layers were cut in small
 // steps; by sums over the bonds 0.257, 0.471, 0.736, and by stretch 1.164, 1.142, 1.046.
 TEST(ThinMembers, WhoseCracksDissipateAnotherEnergyAreToldOf) {
-  const auto told = [](int layers, const std::string& model) {
-    const RunFolder folder(Lattice{.nx = 12, .ny = 12, .nz = layers});
+  const auto told = [](int layers, const std::string& model, const Tensor& turn = Tensor::Identity()) {
+    const Lattice lattice{.nx = 12, .ny = 12, .nz = layers};
+    const RunFolder folder(lattice);
+    write_stretched(folder, lattice, Vector::Ones(), turn);
     Parts parts;
     parts.materials = section("copper", key("Material Model", "Elastic") + key("Density", "1000") +
                                             key("Young's Modulus", "1e7") + key("Poisson's Ratio", "0.25"));
@@ -629,6 +631,9 @@ TEST(ThinMembers, WhoseCracksDissipateAnotherEnergyAreToldOf) {
   expect_told(told(4, "Bond Energy"), {"in plates of 4 layers" + cut + "0.74" + of});
   expect_told(told(1, "Critical Stretch"), {"in plates of 1 layer" + cut + "1.2" + of});
   expect_told(told(2, "Critical Stretch"), {"in plates of 2 layers" + cut + "1.1" + of});
+  const Tensor turn = turned_by(37, {1, 2, 3});
+  expect_told(told(1, "Bond Energy", turn), {"in plates of 1 layer" + cut + "0.26" + of});
+  expect_told(told(2, "Bond Energy", turn), {"in plates of 2 layers" + cut + "0.47" + of});
   EXPECT_EQ(told(4, "Critical Stretch").find(cut), std::string::npos);  // 1.05
   EXPECT_EQ(told(12, "Bond Energy").find(cut), std::string::npos);
 }
