@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "advice/lattice_axes.hpp"
 #include "fracture/plates.hpp"
 #include "mechanics/hindered_breaks.hpp"
 
@@ -41,19 +43,34 @@ std::string sudden_failure(const Situation& situation) {
 
 namespace {
 
-// Collective. The layers of the plates of a block on a lattice along its axes, if whole families see both of their
+// Collective. The axes of a block's lattice, as its point with most neighbors sees them; zero without a point.
+Tensor axes_of(const Domain& domain, const MaterialBlock& block) {
+  const Communicator& communicator = domain.communicator;
+  const auto has_fewer = [&](int i, int j) { return domain.families.size(i) < domain.families.size(j); };
+  const auto best = std::max_element(block.points.begin(), block.points.end(), has_fewer);
+  const double mine = best == block.points.end() ? -1.0 : static_cast<double>(domain.families.size(*best));
+  const double most = communicator.max(mine), rank = communicator.rank();
+  const double teller = communicator.min(mine == most ? rank : communicator.size());  // of several the first
+  Tensor axes = Tensor::Zero();
+  if (mine >= 0 && teller == rank) axes = lattice_axes(domain, *best);
+  communicator.sum(std::span<double>(axes.data(), 9));
+  return axes;
+}
+
+// Collective. The layers of the plates of a block on a lattice, if whole families see both of their
 // faces; 0 for other blocks.
 int layers_of_plates(const Body& body, const MaterialBlock& block, const BlockHorizons& of_block) {
   const Domain& domain = body.domain;
   const int reach = static_cast<int>(of_block.largest / of_block.spacing * (1 + 1e-9));
   if (reach < 1) return 0;
   const int most = 2 * reach;
-  std::vector<double> counts(3 * most + 1, 0);  // of points that see so many layers along x, y, z; of all
+  const Tensor axes = axes_of(domain, block);
+  std::vector<double> counts(3 * most + 1, 0);  // of points that see so many layers along each axis; of all
   for (const int i : block.points) {
     if (body.has_lost_bonds(i)) continue;                    // it sees a crack
     Vector ahead = Vector::Zero(), behind = Vector::Zero();  // spacings
     domain.families.for_each(i, [&](int j) {
-      const Vector xi = (domain.reference(j) - domain.reference(i)) / of_block.spacing;
+      const Vector xi = axes.transpose() * (domain.reference(j) - domain.reference(i)) / of_block.spacing;
       ahead = ahead.cwiseMax(xi), behind = behind.cwiseMax(-xi);
     });
     for (int axis = 0; axis < 3; ++axis) {
@@ -73,11 +90,11 @@ int layers_of_plates(const Body& body, const MaterialBlock& block, const BlockHo
     }
     return 0;
   };
-  int found = 0, axes = 0;
+  int found = 0, pairs = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    if (const int layers = layers_along(axis)) found = layers, ++axes;
+    if (const int layers = layers_along(axis)) found = layers, ++pairs;
   }
-  return axes == 1 ? found : 0;  // bars have two pairs of faces
+  return pairs == 1 ? found : 0;  // bars have two pairs of faces
 }
 
 }  // namespace

@@ -40,7 +40,11 @@ std::optional<double> first_meeting(const Situation& situation, int one, int oth
     b.places.translate(shift);
     b.cells.translate(shift);
     if (may_be_bonded(domain.blocks[one], domain.blocks[other], a.places.exteriorDistance(b.places))) continue;
-    const auto time = meeting_time(a, b, situation.duration);
+    auto time = meeting_time(a, b, situation.duration);
+    if (time) {  // in boxes along the axes of space
+      const std::vector<View> views = views_of(situation.scene.body, situation.trajectories, one, other);
+      time = meeting_time(views, situation.duration, shift);
+    }
     if (time) first = std::min(*time, first.value_or(*time));
   }
   return first;

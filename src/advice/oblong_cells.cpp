@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "advice/lattice_axes.hpp"
 #include "topology/cell_edges.hpp"
 
 namespace strut {
@@ -14,7 +15,7 @@ namespace {
 // ---- Dilatation of ordinary solids ---------------------------------------------------------------------------------
 
 // True if less than a layer is missing on both sides along a direction. The next layer is that of the nearest neighbor
-// in a cone around it.
+// in a cone around it; without any, as across a single row or layer, surfaces are near.
 bool reaches_horizon(const Domain& domain, int i, const Vector& direction) {
   constexpr double narrow = 0.8;  // the cosine
   double ahead = 0, behind = 0, layer = std::numeric_limits<double>::infinity();
@@ -24,7 +25,7 @@ bool reaches_horizon(const Domain& domain, int i, const Vector& direction) {
     ahead = std::max(ahead, along), behind = std::max(behind, -along);
     if (std::abs(along) > narrow * xi.norm()) layer = std::min(layer, std::abs(along));
   });
-  return std::min(ahead, behind) > domain.horizon(i) - (1 - 1e-6) * layer;
+  return std::isfinite(layer) && std::min(ahead, behind) > domain.horizon(i) - (1 - 1e-6) * layer;
 }
 
 // True if a neighbor has less than a whole cell, as nodes at a surface have.
@@ -35,14 +36,16 @@ bool has_parts_of_cells(const Domain& domain, int i) {
 }
 
 // 3 K/tr K of an ordinary point, K = Σ ω V ξ⊗ξ: by how much its dilatation (3/m) Σ ω V |ξ| e counts strain along each
-// direction. Zero where a surface is near, or bonds are broken, which then tell nothing of the lattice.
+// direction. Zero where bonds are broken, or where a surface is near: along the axes of space, of K, or of the lattice,
+// which a body's turn leaves square to its faces.
 Tensor counts_of_strain(const Body& body, int i) {
   const Tensor inverse = to_tensor(body.shape_inverse[i]);
   if (body.has_lost_bonds(i) || !(inverse.trace() > 0) || has_parts_of_cells(body.domain, i)) return Tensor::Zero();
   const Tensor K = inverse.inverse();
   const Tensor axes = Eigen::SelfAdjointEigenSolver<Tensor>(K).eigenvectors();
+  const Tensor of_lattice = lattice_axes(body.domain, i);
   for (int c = 0; c < 3; ++c) {
-    for (const Vector& direction : {Vector(Vector::Unit(c)), Vector(axes.col(c))}) {
+    for (const Vector& direction : {Vector(Vector::Unit(c)), Vector(axes.col(c)), Vector(of_lattice.col(c))}) {
       if (!reaches_horizon(body.domain, i, direction)) return Tensor::Zero();
     }
   }
@@ -88,24 +91,26 @@ namespace {
 
 // ---- Surfaces and cracks -------------------------------------------------------------------------------------------
 
-// Means over the cells of a block with known edges, m; 0 without any.
+// Means over the cells of a block with known edges, m; 0 without any. Over whole cells where there are some.
 struct MeanEdges {
   double shortest = 0, spacing = 0, longest = 0;
 };
 
 std::vector<MeanEdges> mean_edges(const Domain& domain) {
-  std::vector<double> sums(4 * domain.blocks.size());
+  const std::size_t blocks = domain.blocks.size();
+  std::vector<double> sums(8 * blocks);  // of whole cells, then of parts
   for (int i = 0; i < domain.owned; ++i) {
     if (!has_known_edges(domain, i)) continue;
     const CellEdges edges = edges_of_cell(domain, i);
-    double* of_block = &sums[4 * domain.cloud.blocks[i]];
+    double* of_block = &sums[4 * (domain.cloud.blocks[i] + (has_whole_cell(domain, i) ? 0 : blocks))];
     of_block[0] += edges.shortest, of_block[1] += domain.cloud.spacings[i], of_block[2] += edges.longest, ++of_block[3];
   }
   domain.communicator.sum(sums);
   std::vector<MeanEdges> means;
-  for (std::size_t b = 0; b < sums.size(); b += 4) {
-    const double count = std::max(1.0, sums[b + 3]);
-    means.push_back({sums[b] / count, sums[b + 1] / count, sums[b + 2] / count});
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const double* of_block = &sums[4 * (sums[4 * b + 3] > 0 ? b : b + blocks)];
+    const double count = std::max(1.0, of_block[3]);
+    means.push_back({of_block[0] / count, of_block[1] / count, of_block[2] / count});
   }
   return means;
 }

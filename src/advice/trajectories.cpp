@@ -83,6 +83,66 @@ std::vector<Eigen::AlignedBox3d> ways_of_points(const Scene& scene, const std::v
   return all;
 }
 
+// Restricts it to the times at which two blocks overlap along all axes.
+void restrict_to_overlap(const Trajectory& a, const Trajectory& b, double duration, double& from, double& to) {
+  for (int c = 0; c < 3; ++c) {
+    if (stay_apart(a, b, c) || stay_apart(b, a, c)) to = -std::numeric_limits<double>::infinity();
+    restrict_to_overlap(b, a, c, duration, from, to);
+    restrict_to_overlap(a, b, c, duration, from, to);
+  }
+}
+
+void extend(Trajectory& trajectory, const Body& body, int i, const Tensor& axes) {
+  const Domain& domain = body.domain;
+  const Vector place = axes.transpose() * body.current(i);
+  trajectory.places.extend(place);
+  for (int c = 0; c < 3; ++c) {
+    const auto reach = [&](const Vector& to) { return reach_of_cell(domain.cloud, domain.volume(i), i, to); };
+    trajectory.cells.extend(place + reach(axes.col(c)) * Vector::Unit(c));
+    trajectory.cells.extend(place - reach(-axes.col(c)) * Vector::Unit(c));
+  }
+}
+
+// Collective. A block's trajectory along other axes.
+Trajectory along(const Tensor& axes, const Body& body, int block, const Trajectory& in_space) {
+  Trajectory seen;
+  for (const int i : body.blocks[block].points) extend(seen, body, i, axes);
+  for (Eigen::AlignedBox3d* box : {&seen.places, &seen.cells}) *box = common_box(*box, body.domain.communicator);
+  for (int k = 0; k < 8; ++k)
+    seen.velocities.extend(axes.transpose() *
+                           in_space.velocities.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+  return seen;
+}
+
+struct Frame {
+  Vector center = Vector::Zero();
+  Tensor axes = Tensor::Identity();
+};
+
+// Collective. The center and the principal axes of a block's points.
+Frame frame_of(const Body& body, int block, const Trajectory& in_space) {
+  const Vector middle = in_space.places.center();
+  double sums[13] = {};
+  Eigen::Map<Vector> first(sums);
+  Eigen::Map<Tensor> second(sums + 3);
+  for (const int i : body.blocks[block].points) {
+    const Vector r = body.current(i) - middle;
+    first += r, second += r * r.transpose(), ++sums[12];
+  }
+  body.domain.communicator.sum(sums);
+  const Vector mean = first / sums[12];
+  const Tensor moments = second / sums[12] - mean * mean.transpose();
+  return {middle + mean, Eigen::SelfAdjointEigenSolver<Tensor>(moments).eigenvectors()};
+}
+
+// Axes of which the first has this direction.
+Tensor axes_along(const Vector& direction) {
+  Tensor axes;
+  axes.col(0) = direction.normalized(), axes.col(1) = direction.unitOrthogonal();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes;
+}
+
 }  // namespace
 
 void move_on(const Conditions& conditions, const Domain& domain, double time, double step, std::vector<Vector>& ways) {
@@ -114,15 +174,9 @@ std::vector<Trajectory> trajectories(const Scene& scene, double start, double du
   const std::vector<Eigen::AlignedBox3d> ways = ways_of_points(scene, velocities, start, duration);
   for (int i = 0; i < domain.owned; ++i) {
     Trajectory& trajectory = all[domain.cloud.blocks[i]];
-    const Vector place = scene.body.current(i);
-    trajectory.places.extend(place);
     trajectory.velocities.extend(velocities[i]);
     trajectory.ways.extend(ways[i]);
-    for (const Vector direction : {Vector::UnitX(), Vector::UnitY(), Vector::UnitZ()}) {
-      const auto reach = [&](const Vector& to) { return reach_of_cell(domain.cloud, domain.volume(i), i, to); };
-      trajectory.cells.extend(place + reach(direction) * direction);
-      trajectory.cells.extend(place - reach(-direction) * direction);
-    }
+    extend(trajectory, scene.body, i, Tensor::Identity());
   }
   for (Trajectory& trajectory : all) {
     for (Eigen::AlignedBox3d* box : {&trajectory.places, &trajectory.cells, &trajectory.velocities, &trajectory.ways})
@@ -134,10 +188,26 @@ std::vector<Trajectory> trajectories(const Scene& scene, double start, double du
 std::optional<double> meeting_time(const Trajectory& a, const Trajectory& b, double duration) {
   if (a.places.isEmpty() || b.places.isEmpty()) return std::nullopt;
   double from = 0, to = duration;
-  for (int c = 0; c < 3; ++c) {
-    if (stay_apart(a, b, c) || stay_apart(b, a, c)) return std::nullopt;
-    restrict_to_overlap(b, a, c, duration, from, to);
-    restrict_to_overlap(a, b, c, duration, from, to);
+  restrict_to_overlap(a, b, duration, from, to);
+  return from <= to ? std::optional(from) : std::nullopt;
+}
+
+std::vector<View> views_of(const Body& body, const std::vector<Trajectory>& all, int a, int b) {
+  const Frame of_a = frame_of(body, a, all[a]), of_b = frame_of(body, b, all[b]);
+  std::vector<View> views = {{Tensor::Identity(), all[a], all[b]}};
+  std::vector<Tensor> others = {of_a.axes, of_b.axes};
+  const Vector between = of_b.center - of_a.center;
+  if (!between.isZero()) others.push_back(axes_along(between));
+  for (const Tensor& axes : others) views.push_back({axes, along(axes, body, a, all[a]), along(axes, body, b, all[b])});
+  return views;
+}
+
+std::optional<double> meeting_time(const std::vector<View>& views, double duration, const Vector& shift) {
+  double from = 0, to = duration;
+  for (View view : views) {
+    const Vector shift_here = view.axes.transpose() * shift;
+    view.b.places.translate(shift_here), view.b.cells.translate(shift_here);
+    restrict_to_overlap(view.a, view.b, duration, from, to);
   }
   return from <= to ? std::optional(from) : std::nullopt;
 }

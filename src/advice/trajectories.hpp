@@ -22,9 +22,23 @@ struct Trajectory {
 // Collective. One for each block; initial and prescribed velocities of the start. `start`, `duration`: s.
 std::vector<Trajectory> trajectories(const Scene& scene, double start, double duration);
 
+// Two blocks in coordinates along other axes, the columns.
+struct View {
+  Tensor axes = Tensor::Identity();
+  Trajectory a, b;
+};
+
+// Collective. Two blocks that have points, along the axes of space, those of either block, and the line between their
+// centers: boxes along the first overlap where bodies that are turned are apart.
+std::vector<View> views_of(const Body& body, const std::vector<Trajectory>& all, int a, int b);
+
 // The first time in [0, duration] at which the boxes of cells, moved with these velocities, overlap; s. Those that
 // touch at the start meet only if they go on to overlap, and none whose ways are too short.
 std::optional<double> meeting_time(const Trajectory& a, const Trajectory& b, double duration);
+
+// The same of boxes that overlap in all of these views, the second block shifted.
+std::optional<double> meeting_time(const std::vector<View>& views, double duration,
+                                   const Vector& shift = Vector::Zero());
 
 // Displacements of points by conditions up to `time`, which is `step` after the last call; velocities are integrated.
 void move_on(const Conditions& conditions, const Domain& domain, double time, double step, std::vector<Vector>& ways);

@@ -88,8 +88,7 @@ struct Approach {
   double least = 0, most = 0;
 };
 
-Approach approach(const Trajectory& a, const Trajectory& b, double duration) {
-  if (!meeting_time(a, b, duration)) return {};
+Approach approach(const Trajectory& a, const Trajectory& b) {
   Vector least = Vector::Zero(), most = Vector::Zero();
   for (int c = 0; c < 3; ++c) {
     const bool a_below = a.places.max()[c] < b.places.min()[c], b_below = b.places.max()[c] < a.places.min()[c];
@@ -99,6 +98,21 @@ Approach approach(const Trajectory& a, const Trajectory& b, double duration) {
     most[c] = std::max(0.0, low.velocities.max()[c] - high.velocities.min()[c]);
   }
   return {least.norm(), most.norm()};
+}
+
+// Collective. The approach of two blocks that meet, in the view that has them farthest apart: no box tells of more than
+// there is between them.
+Approach approach(const Situation& situation, int a, int b) {
+  const std::vector<Trajectory>& all = situation.trajectories;
+  if (!meeting_time(all[a], all[b], situation.duration)) return {};
+  const std::vector<View> views = views_of(situation.scene.body, all, a, b);
+  if (!meeting_time(views, situation.duration)) return {};
+  const View* widest = &views.front();
+  const auto apart = [](const View& view) { return view.a.places.exteriorDistance(view.b.places); };
+  for (const View& view : views) {
+    if (apart(view) > (1 + 1e-6) * apart(*widest)) widest = &view;
+  }
+  return approach(widest->a, widest->b);
 }
 
 // The pressure in an impact of elastic bodies, Pa.
@@ -241,10 +255,8 @@ std::string weakness_when_pressed(const contact::Law& law, const Side& a, const 
 std::string weak_contacts(const Situation& situation) {
   const deck::Deck& deck = situation.deck;
   const Scene& scene = situation.scene;
-  const double duration = situation.duration;
   const auto& interactions = situation.interactions;
   const auto& spacings = situation.spacings;
-  const auto& trajectories = situation.trajectories;
   const Domain& domain = scene.body.domain;
   if (interactions.empty()) return "";
   const std::vector<Side> sides = sides_of(scene.body, spacings);
@@ -258,7 +270,7 @@ std::string weak_contacts(const Situation& situation) {
     if (domain.blocks[first].body == domain.blocks[second].body)
       text = weakness_when_pressed(model.law, a, b);
     else if (!scene.quasi_static)
-      text = weakness(model.law, a, b, approach(trajectories[first], trajectories[second], duration), surely);
+      text = weakness(model.law, a, b, approach(situation, first, second), surely);
     if (surely && deck.watch.stops && !may_be_stopped(scene, interactions, first, second) &&
         !may_be_spared(scene.body, scene.conditions, first, second))
       problems.add("Contact", text);

@@ -5,8 +5,13 @@
 
 namespace strut {
 
-bool has_known_edges(const Domain& domain, int i) {
+bool has_whole_cell(const Domain& domain, int i) {
   constexpr double alike = 1e-3;  // the relative difference of volumes
+  const double whole = std::pow(domain.cloud.spacings[i], 3);
+  return std::abs(domain.volume(i) - whole) < alike * whole;
+}
+
+bool has_known_edges(const Domain& domain, int i) {
   constexpr std::size_t corners_of_tetrahedron = 4;
   const PointCloud& cloud = domain.cloud;
   if (cloud.shapes.empty()) return false;
@@ -14,7 +19,7 @@ bool has_known_edges(const Domain& domain, int i) {
   // A node has an eighth of each hexahedron around it, and of a tetrahedron a quarter, of which six make a cube.
   if (cloud.at == PointsAt::nodes)
     return domain.volume(i) > static_cast<double>(cloud.shared_nodes[i].size()) * whole / 16;
-  return cloud.shared_nodes[i].size() > corners_of_tetrahedron && std::abs(domain.volume(i) - whole) < alike * whole;
+  return cloud.shared_nodes[i].size() > corners_of_tetrahedron && has_whole_cell(domain, i);
 }
 
 double edge_of_cell(const Domain& domain, int i, const Vector& direction) {
@@ -25,9 +30,14 @@ double edge_of_cell(const Domain& domain, int i, const Vector& direction) {
 
 CellEdges edges_of_cell(const Domain& domain, int i) {
   if (!has_known_edges(domain, i)) return {domain.cloud.spacings[i], domain.cloud.spacings[i]};
-  const Eigen::SelfAdjointEigenSolver<Tensor> moments(to_tensor(domain.cloud.shapes[i].moments));
-  const auto edge = [&](int axis) { return edge_of_cell(domain, i, moments.eigenvectors().col(axis)); };
-  return {edge(0), edge(2)};
+  // A node at a face may have a cube of a cell that is none: its offset then tells the axis across the face. The
+  // moments of parts of cells are not in the order of their edges.
+  const CellShape& shape = domain.cloud.shapes[i];
+  const Tensor moments = to_tensor(shape.moments) + 1e-6 * shape.offset * shape.offset.transpose();
+  const Tensor axes = Eigen::SelfAdjointEigenSolver<Tensor>(moments).eigenvectors();
+  Vector edges;
+  for (int c = 0; c < 3; ++c) edges[c] = edge_of_cell(domain, i, axes.col(c));
+  return {edges.minCoeff(), edges.maxCoeff()};
 }
 
 }  // namespace strut

@@ -1,5 +1,7 @@
-// Lattices whose cells are no cubes.
+// Lattices whose cells are no cubes, and turned ones.
 #pragma once
+
+#include <numbers>
 
 #include "base/errors.hpp"
 #include "io/exodus/exodus.hpp"
@@ -7,11 +9,16 @@
 
 namespace strut::regression {
 
-// Writes the lattice as the folder's mesh, its places multiplied by `factors`.
-inline void write_stretched(const RunFolder& folder, const Lattice& lattice, const Vector& factors) {
+// Writes the lattice as the folder's mesh, its places multiplied by `factors`, then turned.
+inline void write_stretched(const RunFolder& folder, const Lattice& lattice, const Vector& factors,
+                            const Tensor& turn = Tensor::Identity()) {
   io::Mesh mesh = lattice.mesh();
-  for (Vector& node : mesh.nodes) node = node.cwiseProduct(factors);
+  for (Vector& node : mesh.nodes) node = turn * node.cwiseProduct(factors);
   run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+}
+
+inline Tensor turned_by(double degrees, const Vector& axis) {
+  return Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis.normalized()).toRotationMatrix();
 }
 
 // Each hexahedron as six tetrahedra around one diagonal, the same on opposite faces.

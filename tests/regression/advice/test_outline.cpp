@@ -617,8 +617,10 @@ TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
 // By bond energy 0.257, 0.468 of the fracture energy were seen where plates of one and two layers were cut in small
 // steps; by sums over the bonds 0.257, 0.471, 0.736, and by stretch 1.164, 1.142, 1.046.
 TEST(ThinMembers, WhoseCracksDissipateAnotherEnergyAreToldOf) {
-  const auto told = [](int layers, const std::string& model) {
-    const RunFolder folder(Lattice{.nx = 12, .ny = 12, .nz = layers});
+  const auto told = [](int layers, const std::string& model, const Tensor& turn = Tensor::Identity()) {
+    const Lattice lattice{.nx = 12, .ny = 12, .nz = layers};
+    const RunFolder folder(lattice);
+    write_stretched(folder, lattice, Vector::Ones(), turn);
     Parts parts;
     parts.materials = section("copper", key("Material Model", "Elastic") + key("Density", "1000") +
                                             key("Young's Modulus", "1e7") + key("Poisson's Ratio", "0.25"));
@@ -633,6 +635,9 @@ TEST(ThinMembers, WhoseCracksDissipateAnotherEnergyAreToldOf) {
   expect_told(told(4, "Bond Energy"), {"in plates of 4 layers" + cut + "0.74" + of});
   expect_told(told(1, "Critical Stretch"), {"in plates of 1 layer" + cut + "1.2" + of});
   expect_told(told(2, "Critical Stretch"), {"in plates of 2 layers" + cut + "1.1" + of});
+  const Tensor turn = turned_by(37, {1, 2, 3});
+  expect_told(told(1, "Bond Energy", turn), {"in plates of 1 layer" + cut + "0.26" + of});
+  expect_told(told(2, "Bond Energy", turn), {"in plates of 2 layers" + cut + "0.47" + of});
   EXPECT_EQ(told(4, "Critical Stretch").find(cut), std::string::npos);  // 1.05
   EXPECT_EQ(told(12, "Bond Energy").find(cut), std::string::npos);
 }
@@ -665,6 +670,49 @@ TEST(OblongCells, OfOrdinaryPointsSurfacesAndCracksAreToldOf) {
   write_stretched(folder, lattice, {1, 1, 2});
   expect_told(told(""), {dilatation, cracks});
   expect_told(told(itself), {dilatation, surfaces});
+}
+
+// Of points beside a surface that is oblique to the axes of space, and of a single row, the sums tell nothing.
+TEST(OblongCells, CubesOfTurnedAndThinBarsAreNone) {
+  const auto told = [](const Lattice& lattice, const Vector& factors, const Tensor& turn) {
+    const RunFolder folder(lattice);
+    write_stretched(folder, lattice, factors, turn);
+    Parts parts;
+    parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "3"));
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  const std::string cubic = "not on a cubic lattice";
+  const Lattice thick{.nx = 5, .ny = 5, .nz = 12}, row{.nx = 1, .ny = 1, .nz = 12}, cube{.nx = 8, .ny = 8, .nz = 8};
+  for (const double degrees : {0, 30, 45, 60}) {
+    for (const Vector& axis : {Vector(0, 0, 1), Vector(1, 1, 0)}) {
+      for (const Lattice& lattice : {thick, row}) {
+        const std::string said = told(lattice, Vector::Ones(), turned_by(degrees, axis));
+        EXPECT_EQ(said.find(cubic), std::string::npos) << degrees << " " << said;
+      }
+    }
+  }
+  expect_told(told(cube, {1, 1, 2}, turned_by(30, {1, 2, 3})), {cubic});
+}
+
+// Nodes of cells twice as long as wide: of those at a face the parts of a cell are cubes.
+TEST(OblongCells, OfNodesHaveTheEdgesOfWholeCells) {
+  const auto told = [](const Lattice& lattice, double length, const Tensor& turn) {
+    const RunFolder folder(lattice);
+    write_stretched(folder, lattice, {length, 1, 1}, turn);
+    Parts parts;
+    parts.points = "Nodes";
+    parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key("Fracture Energy", "1e4"));
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "2") +
+                                        key("Damage Model", "brittle"));
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  const Lattice cube{.nx = 3, .ny = 3, .nz = 3}, plate{.nx = 4, .ny = 4, .nz = 1};
+  for (const Tensor& turn : {turned_by(0, {0, 0, 1}), turned_by(37, {1, 2, 3})}) {
+    expect_told(told(cube, 2, turn), {"the longest edge is 2 times the shortest"});
+    expect_told(told(cube, 1.4, turn), {"the longest edge is 1.4 times the shortest"});
+  }
+  expect_told(told(plate, 2, turned_by(0, {0, 0, 1})), {"its cells are no cubes"});
 }
 
 // Nodes of cubes, of which those at a surface have parts of a cell; one layer in the middle does not see past them.

@@ -100,6 +100,51 @@ TEST(WeakContact, WhatCannotTakeUpTheEnergyIsAnErrorAndPassesThrough) {
   EXPECT_EQ(error_of(folder, by_penalty(folder, h, 1.01 * hopeless_penalty())), "");
 }
 
+// The points of cubes(), turned by 30° about y.
+std::string turned(const std::string& points) {
+  std::istringstream all(points);
+  std::ostringstream text;
+  text.precision(17);
+  double x = 0, y = 0, z = 0, volume = 0;
+  int block = 0;
+  const double c = std::sqrt(0.75), s = 0.5;
+  while (all >> x >> y >> z >> block >> volume)
+    text << c * x + s * z << " " << y << " " << c * z - s * x << " " << block << " " << volume << "\n";
+  return text.str();
+}
+
+// Boxes along the axes of space overlap there.
+TEST(WeakContact, OfTurnedBlocksIsToldOf) {
+  const RunFolder folder;
+  const auto parts = [&](double penalty) {
+    Parts all = by_penalty(folder, h, penalty);
+    folder.write("points.txt",
+                 turned(cubes(1, {0, 0, 0}, 9, 2, nz, h) + cubes(2, {0, 0, (nz + 0.5) * h}, 9, 2, nz, h)));
+    all.conditions = along("fall", "Initial Velocity", "block_2", "z", "-100*sqrt(0.75)") +
+                     along("flight", "Initial Velocity", "block_2", "x", "-50");
+    return all;
+  };
+  const std::string error = error_of(folder, parts(0.99 * hopeless_penalty()));
+  EXPECT_NE(error.find("J of an impact at 100 m/s: they will pass through each other"), std::string::npos) << error;
+  EXPECT_NE(warnings_of(folder, parts(0.99 * bearing_penalty())).find(" Pa of an elastic impact at 100 m/s"),
+            std::string::npos);
+  EXPECT_EQ(warnings_of(folder, parts(1.01 * bearing_penalty())), "");
+}
+
+// Two bars side by side that fly together never meet; the second one towards the first does.
+TEST(UndeclaredContact, OfTurnedBarsIsToldOfWhereTheyMeet) {
+  const RunFolder folder;
+  folder.write("points.txt", turned(cubes(1, {0, 0, 0}, 2, 2, 20, h) + cubes(2, {4 * h, 0, 0}, 2, 2, 20, h)));
+  Parts parts = thrown_block("");
+  const auto told = [&](const std::string& block) {
+    parts.conditions = along("fall", "Initial Velocity", block, "z", "50") +
+                       along("flight", "Initial Velocity", block, "x", "-100*sqrt(0.75)");
+    return Simulation(folder, parts).advice.warnings;
+  };
+  EXPECT_EQ(told("all").find("will pass through each other"), std::string::npos) << told("all");
+  EXPECT_NE(told("block_2").find("meet at about t = 2e-05 s and will pass"), std::string::npos) << told("block_2");
+}
+
 // A tool may be what stops them.
 TEST(WeakContact, BesideAToolWhatCannotTakeUpTheEnergyIsAWarning) {
   const RunFolder folder;
