@@ -329,12 +329,14 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
   for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
     ContactPair& pair = contact_pairs_[m];
     const bool may_break = pair.blocks.one_body && any_may_break;
-    if (!may_break && !(pair.surfaces && pair.model.friction > 0)) continue;
+    const bool rubs = pair.surfaces && pair.model.friction > 0, had_a_start = pair.surfaces && !pair.blocks.one_body;
+    if (!may_break && !rubs && !had_a_start) continue;
     std::vector<std::int64_t> ids;
     for (const int i : pair.blocks.points) ids.push_back(domain.id(i));
     archive.points("contact_" + std::to_string(m), ids);
     if (may_break) serialize_breaks(archive, domain, pair);
-    if (pair.surfaces) pair.surfaces->serialize(archive, may_break);
+    if (had_a_start) pair.surfaces->serialize_start(archive);
+    if (pair.surfaces && (may_break || rubs)) pair.surfaces->serialize(archive, may_break);
   }
   if (archive.loading()) restore(kinematics, dt);
 }

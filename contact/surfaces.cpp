@@ -286,6 +286,10 @@ void Surfaces::add_springs(const Pairs& pairs, std::span<Tensor> springs) const 
   }
 }
 
+void Surfaces::serialize_start(Archive& archive) {
+  archive.field("threshold", 1, [this](std::size_t k, int) -> double& { return points_[k].threshold; });
+}
+
 void Surfaces::serialize(Archive& archive, bool may_break) {
   if (friction_before_.empty()) friction_before_.assign(points_.size(), Vector::Zero());
   archive.field("slip", 3, [this](std::size_t k, int c) -> double& { return slips_before_[k][c]; });

@@ -83,6 +83,8 @@ class Surfaces {
   // Columns of blocks.points: stretch of the friction springs at the start of the last step or trial, and the friction
   // there; with bonds that may break, what broken points feel.
   void serialize(Archive& archive, bool may_break);
+  // A column of ρ at which points touch: the mesh of a run that starts from this one may have them elsewhere.
+  void serialize_start(Archive& archive);
 
  private:
   // Contact state of a point, as its partners need it.

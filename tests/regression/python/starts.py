@@ -405,6 +405,21 @@ class Starts(InFolder):
                 second = start(first, "first.restart", Contact=deck["Contact"], Boundary_Conditions={}, Solver={"Final Time": 1e-6})
                 self.assertEqual("stores" in strut.Run(second).log, told)
 
+    def test_surfaces_touch_where_those_of_the_other_run_did(self):
+        """Its upper bar began a fifth of a spacing inside the lower one, where it does not press; the mesh has them apart."""
+        deck = scene("impact")
+        deck["Contact"]["Models"]["touch"] = {"Contact Model": "Surface"}
+        deck["Materials"] = {name: {"Material Model": "Elastic", "Density": 8930.0, "Young's Modulus": 117e9, "Poisson's Ratio": 0.25}
+                             for name in deck["Materials"]}
+        down = {"Type": "Initial Displacement", "Node Set": "block_2", "Coordinate": "z", "Value": f"-{restarts.GAP + 0.2 * restarts.SPACING}"}
+        first = but(deck, Boundary_Conditions={"down": down}, History={"Frequency": 1}, Solver={"Final Time": 1e-7})
+        rest = strut.run(but(first, Restart={"Filename": "first.restart"}))
+        self.assertEqual(rest.history["Kinetic_Energy"].max(), 0)
+        for time in (rest.time, 0.0):  # it goes on, or begins anew
+            run = strut.run(start(first, "first.restart", time, Boundary_Conditions={}, Solver={"Initial Time": time, "Final Time": time + 1e-7}))
+            self.assertEqual("goes on with its steps" in run.log, time > 0)
+            self.assertEqual(run.history["Kinetic_Energy"].max(), 0)
+
     def test_the_criterion_of_points_that_may_fail_stays(self):
         """How far they are, the plastic strain over ε_f, would go on in parts of another one. A bond has no such memory."""
         deck = block.deck(Blocks={"block": {**block.deck()["Blocks"]["block"], "Damage Model": "one"}})
