@@ -557,6 +557,22 @@ TEST(Monitor, PointsThatAreDrawnApartWithoutTearingAreToldOf) {
                         " of block bar, reference position (", "no Damage Model", "told once"});
 }
 
+// Two bodies that are alike to the last bit, one on each of two ranks: one of them is told of.
+TEST(Monitor, OfBodiesThatAreAlikeOneIsToldOf) {
+  const RunFolder folder;
+  const double h = std::ldexp(1, -10);
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, h) + cubes(2, {128 * h, 0, 0}, 3, 3, 3, h));
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.conditions = along("pull", "Prescribed Displacement", "all", "z", "9e6*z*t") +
+                     along("sides", "Prescribed Displacement", "all", "xy", "0");
+  parts.times = key("Final Time", "1e-6");
+  parts.watch = key("Balance Error", "1") + key("Beyond Limits", "Continue");
+  const Outcome o = outcome(folder, parts);
+  EXPECT_EQ(o.error, "");
+  EXPECT_EQ(folder.world.sum(o.said.find("drawn") != std::string::npos ? 1.0 : 0.0), 1);
+}
+
 // A roll reaches the bar at rest after some thirty rows, and is thinner than the points are apart. In that row nothing
 // is known of the energy yet but the round-off of a difference: v of half an impulse, squared, less the same.
 TEST(Monitor, ABodyThatHasJustBeenStruckIsInBalance) {
