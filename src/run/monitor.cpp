@@ -327,7 +327,8 @@ void Monitor::tell_if_negative(What what, const char* name, double energy, const
 
 namespace {
 
-// For this rank: the number of points without stress by a criterion of their law, and the first of them, or -1.
+// For this rank: the number of points without stress by a criterion of their law, of quadratic cells those all of whose
+// integration points have failed, since others hold; and the first of them, or -1.
 std::pair<int, int> failed_points(const Body& body) {
   int count = 0, first = -1;
   for (const MaterialBlock& block : body.blocks) {
@@ -335,7 +336,11 @@ std::pair<int, int> failed_points(const Body& body) {
         [&]<class Law>(const Law&) {
           if constexpr (requires(typename Law::State state) { state.failed > 0; }) {
             for (std::size_t k = 0; k < block.points.size(); ++k) {
-              if (!(block.template state_of<Law>(block.place(k, 0)).failed > 0)) continue;
+              int failed = 0;
+              for (int q = 0; q < block.points_per_cell(); ++q) {
+                failed += block.template state_of<Law>(block.place(k, q)).failed > 0 ? 1 : 0;
+              }
+              if (failed < block.points_per_cell()) continue;
               if (++count == 1) first = block.points[k];
             }
           }
