@@ -280,7 +280,7 @@ OwnSurface own_surface(const Domain& domain, const BlockPair& blocks, double rea
     surface.may_touch.push_back(is_at_surface(domain, i));
   }
   const bool is_told = domain.cloud.at == PointsAt::elements && !domain.cloud.shapes.empty();
-  if (!(domain.communicator.max(is_told ? 1.0 : 0.0) > 0)) return surface;
+  if (!domain.communicator.any(is_told)) return surface;
   Eigen::AlignedBox3d mine;
   std::vector<Piece> own;
   double spacing = 0;

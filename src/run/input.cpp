@@ -46,7 +46,7 @@ void check_files(const deck::Deck& deck, deck::Problems& problems) {
 void check_two_solvers(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
   if (!deck.next_solver || is_over(deck, communicator)) return;
   const auto is_there = [&](const std::filesystem::path& file) {
-    return communicator.max(communicator.rank() == 0 && std::filesystem::exists(file) ? 1.0 : 0.0) > 0;
+    return communicator.any(communicator.rank() == 0 && std::filesystem::exists(file));
   };
   for (const auto& file :
        {deck.output.enabled ? deck.output.file : "", deck.history.has_file() ? deck.history.file : ""}) {
