@@ -325,7 +325,7 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
   archive.number("searches", searches_);
   const Domain& domain = kinematics.domain;
   // A rank without points cannot tell by itself whether bonds may break.
-  const bool any_may_break = any() && domain.communicator.max(domain.families.broken.empty() ? 0.0 : 1.0) > 0;
+  const bool any_may_break = any() && domain.communicator.any(!domain.families.broken.empty());
   for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
     ContactPair& pair = contact_pairs_[m];
     const bool may_break = pair.blocks.one_body && any_may_break;
@@ -366,7 +366,7 @@ void Contact::restore(const Kinematics& kinematics, double dt) {
   std::vector<Vector> forces(domain.owned, Vector::Zero());
   add_forces(kinematics, dt, forces);
   for (ContactPair& pair : contact_pairs_) {
-    pair.meets = domain.communicator.max(breaks_meet(kinematics, pair) ? 1.0 : 0.0) > 0;
+    pair.meets = domain.communicator.any(breaks_meet(kinematics, pair));
     pair.check_due = true;  // the use of the skin distances in the next step is unknown
     // An equilibrium has no time step from which to recompute friction: it is that of the last commit.
     const bool rubs = pair.surfaces && pair.model.friction > 0;

@@ -45,7 +45,7 @@ Vector bearable(const Patch& patch, const Vector& place, const Vector& force) {
 void Couples::take(const Domain& domain, const std::vector<int>& points) {
   forces_.clear(), affected_.clear();
   points_ = points;
-  any_ = domain.communicator.max(points.empty() ? 0.0 : 1.0) > 0;
+  any_ = domain.communicator.any(!points.empty());
   if (!any_) return;
   const std::size_t count = domain.owned + domain.ghosts;
   std::vector<char> marks(count, 0), affected(count, 0);

@@ -87,12 +87,12 @@ class Near {
   // Calls visit(record, its position relative to x) for those of a body within `reach` of x.
   template <class Visit>
   void over(const Vector& x, double reach, std::int64_t body, const Visit& visit) const {
-    found_.clear();
+    std::vector<int> found;
     grid_.visit_near(x, [&](int n, const Vector& y) {
-      if (all_[n].body == body && (y - x).squaredNorm() < reach * reach) found_.push_back(n);
+      if (all_[n].body == body && (y - x).squaredNorm() < reach * reach) found.push_back(n);
     });
-    std::sort(found_.begin(), found_.end());
-    for (const int n : found_) visit(all_[n], Vector(all_[n].at() - x));
+    std::sort(found.begin(), found.end());
+    for (const int n : found) visit(all_[n], Vector(all_[n].at() - x));
   }
 
  private:
@@ -105,7 +105,6 @@ class Near {
 
   std::vector<Record> all_;
   CellGrid grid_;
-  mutable std::vector<int> found_;
 };
 
 bool is_of(const Domain& domain, const BlockPair& blocks, int i) {
@@ -280,7 +279,7 @@ OwnSurface own_surface(const Domain& domain, const BlockPair& blocks, double rea
     surface.may_touch.push_back(is_at_surface(domain, i));
   }
   const bool is_told = domain.cloud.at == PointsAt::elements && !domain.cloud.shapes.empty();
-  if (!(domain.communicator.max(is_told ? 1.0 : 0.0) > 0)) return surface;
+  if (!domain.communicator.any(is_told)) return surface;
   Eigen::AlignedBox3d mine;
   std::vector<Piece> own;
   double spacing = 0;

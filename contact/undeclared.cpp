@@ -183,8 +183,7 @@ std::optional<Interpenetration> find_undeclared(const Domain& domain, const Cont
   Interpenetration found = passed_points(domain, uncovered, mine, all, reach);
   found.points = ranks.sum(found.points);
   if (found.points == 0) return std::nullopt;
-  const double teller = ranks.max(found.point >= 0 ? ranks.rank() : -1.0);
-  if (teller != ranks.rank()) found.point = -1;
+  if (ranks.first_rank(found.point >= 0) != ranks.rank()) found.point = -1;
   return found;
 }
 

@@ -90,8 +90,9 @@ std::string volumes_off_lattices(const Situation& situation) {
   }
   const FoundPoints found = found_points(body, {points})[0];
   if (found.count == 0) return "";
-  const bool is_here = most == domain.communicator.max(most);
-  volume = domain.communicator.max(is_here ? volume : 0), expected = domain.communicator.max(is_here ? expected : 0);
+  const Communicator& ranks = domain.communicator;
+  const bool is_here = ranks.first_rank(most == ranks.max(most)) == ranks.rank();
+  volume = ranks.max(is_here ? volume : 0), expected = ranks.max(is_here ? expected : 0);
   std::ostringstream text;
   text << "WARNING: the volumes of " << found.count << " points, one of them at " << place_text(found.one)
        << ", do not fit the lattice that the points are on: the farthest off has " << volume

@@ -10,7 +10,7 @@ MeshNodes::MeshNodes(const Domain& domain) : is_image_(domain.sites.size(), 0) {
   const auto& shared = domain.cloud.shared_nodes;
   const auto has_some = [](const std::vector<std::int64_t>& nodes) { return !nodes.empty(); };
   const bool mine = domain.cloud.at == PointsAt::elements && std::ranges::any_of(shared, has_some);
-  any_ = domain.communicator.max(mine ? 1.0 : 0.0) > 0;
+  any_ = domain.communicator.any(mine);
   if (!any_) return;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     nodes_[k].assign(domain.sites.size(), none);

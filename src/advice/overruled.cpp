@@ -184,7 +184,7 @@ void tell_scaled_ends(const Situation& situation, std::ostringstream& text) {
   constexpr double tells = 1.5;  // s, 1 % of the energy
   const Body& body = situation.scene.body;
   // A rank without points has none.
-  if (body.domain.communicator.max(body.mass_scale.empty() ? 0.0 : 1.0) == 0) return;
+  if (!body.domain.communicator.any(!body.mass_scale.empty())) return;
   situation.scene.conditions.visit([&]<class One>(const One& one) {
     if constexpr (std::is_same_v<One, NonReflectingEnd>) {
       double most = 1;

@@ -183,7 +183,7 @@ bool is_across_a_side(const RigidTool& tool, const PeriodicSides& sides, double 
 bool meets_block(const RigidTool& tool, int block, const Domain& domain) {
   const bool any =
       std::any_of(tool.points.begin(), tool.points.end(), [&](int i) { return domain.cloud.blocks[i] == block; });
-  return domain.communicator.max(any ? 1.0 : 0.0) > 0;
+  return domain.communicator.any(any);
 }
 
 // Collective. The mean edges of each block's cells along x, y and z, m; the spacing where none is known.

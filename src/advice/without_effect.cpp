@@ -65,7 +65,7 @@ std::string misplaced_cracks(const deck::Deck& deck, const Body& body) {
     for (const auto& [i, other] : domain.separated) {
       if ((beside.empty() || beside.back() != i) && may_part(ball, domain, i)) beside.push_back(i);
     }
-    if (domain.communicator.max(beside.empty() ? 0.0 : 1.0) == 0)
+    if (!domain.communicator.any(!beside.empty()))
       text << name << " cuts no bond; are its lengths in m, and is it in a body?\n";
     const FoundPoints found = found_points(body, {points_on(cracks[k], beside, domain)})[0];
     if (found.count == 0) continue;
@@ -83,7 +83,7 @@ std::string sets_of_all_points(const deck::Deck& deck, const Domain& domain) {
     if (set.numbers || at == static_cast<std::ptrdiff_t>(cloud.set_names.size())) continue;
     const bool some_are_not =
         std::any_of(cloud.sets.begin(), cloud.sets.end(), [at](std::uint64_t in) { return ((in >> at) & 1) == 0; });
-    if (domain.communicator.max(some_are_not ? 1.0 : 0.0) > 0) continue;
+    if (domain.communicator.any(some_are_not)) continue;
     text += "WARNING: Node Sets > " + set.name + ": holds all points, as 'all' does; are its lengths in m?\n";
   }
   return text;

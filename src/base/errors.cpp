@@ -29,7 +29,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 void raise_together(const Communicator& communicator, const std::string& problem) {
-  if (communicator.max(problem.empty() ? 0.0 : 1.0) == 0) return;
+  if (!communicator.any(!problem.empty())) return;
   const std::string framed = problem.empty() ? "" : problem + '\0';
   std::string all;
   const std::vector<char> gathered = gather(communicator, std::span<const char>(framed));

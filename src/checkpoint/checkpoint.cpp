@@ -33,7 +33,7 @@ bool has_left_over(const deck::Deck& deck, const Communicator& communicator) {
 
 bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator) {
   const bool there = communicator.rank() == 0 && io::checkpoint_is_there(deck.restart.file);
-  return communicator.max(there ? 1.0 : 0.0) > 0;
+  return communicator.any(there);
 }
 
 bool check_changes(const deck::Deck& deck, const Communicator& communicator) {

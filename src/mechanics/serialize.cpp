@@ -79,7 +79,7 @@ double mark_of_bonds(const Body& body) {
 // Without their surfaces, which are sums over faces. 0: the mesh has no shapes, or nothing needs them.
 double mark_of_cells(const Body& body) {
   const std::vector<CellShape>& shapes = body.domain.cloud.shapes;
-  if (body.domain.communicator.max(shapes.empty() ? 0.0 : 1.0) == 0) return 0;
+  if (!body.domain.communicator.any(!shapes.empty())) return 0;
   return mark_of(body, [&](int i) {
     std::uint64_t word = 0;
     for (const double x : shapes[i].offset) word = mixed(word, std::bit_cast<std::uint64_t>(x));
@@ -125,7 +125,7 @@ void compare_reference(Archive& archive, const Body& body) {
   bool same = true;
   for (int i = 0; i < body.owned(); ++i) same = same && (kept[i] == body.domain.sites[i].reference).all();
   std::vector<std::string> others;
-  if (body.domain.communicator.max(same ? 0.0 : 1.0) > 0) others.emplace_back("at other places, or of other volumes");
+  if (body.domain.communicator.any(!same)) others.emplace_back("at other places, or of other volumes");
   for (const Mark& mark : marks) {
     if (mark.differs()) others.push_back(mark.text);
   }

@@ -94,7 +94,7 @@ void Balance::serialize(Archive& archive, const Body& body) {
   }
   const auto stays = [&](int rank) { return rank == communicator.rank(); };
   const bool all = std::all_of(ranks.begin(), ranks.end(), stays);
-  if (communicator.max(all ? 0.0 : 1.0) > 0) restored_ = std::move(ranks);
+  if (communicator.any(!all)) restored_ = std::move(ranks);
 }
 
 }  // namespace strut

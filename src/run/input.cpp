@@ -50,7 +50,7 @@ void check_two_solvers(const deck::Deck& deck, const Communicator& communicator,
   if (!deck.next_solver || is_over(deck, communicator)) return;
   const auto is_there = [&](const std::filesystem::path& file) {
     std::error_code failure;
-    return communicator.max(communicator.rank() == 0 && std::filesystem::exists(file, failure) ? 1.0 : 0.0) > 0;
+    return communicator.any(communicator.rank() == 0 && std::filesystem::exists(file, failure));
   };
   for (const auto& file :
        {deck.output.enabled ? deck.output.file : "", deck.history.has_file() ? deck.history.file : ""}) {

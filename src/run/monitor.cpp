@@ -30,9 +30,15 @@ constexpr double much_volume = 0.02;
 // The balance error worth a warning, relative to the largest energy; the limit of a gain, relative to that of a loss.
 constexpr double worth_telling = 0.01, of_gains = 0.2;
 
-// `text` on the rank with the largest value over all ranks, else nothing.
+// `text` on the first rank where `here` is true, else nothing.
+std::string of_first(const Body& body, bool here, const std::string& text) {
+  const Communicator& ranks = body.domain.communicator;
+  return ranks.first_rank(here) == ranks.rank() ? text : "";
+}
+
+// `text` on the first of the ranks with the largest value over all ranks, else nothing.
 std::string of_largest(const Body& body, double own, const std::string& text) {
-  return own == body.domain.communicator.max(own) ? text : "";
+  return of_first(body, own == body.domain.communicator.max(own), text);
 }
 
 // The point that limits the time step.
@@ -118,8 +124,7 @@ std::string without_a_number(const Body& body) {
            ". Likely causes: a tool or a condition that has put several points in one place (bonds between them have "
            "no direction), a load or a speed far too large";
   }
-  const double turn = point < 0 ? 0 : 1.0 / (1 + body.domain.communicator.rank());
-  return of_largest(body, turn, text);
+  return of_first(body, point >= 0, text);
 }
 
 }  // namespace
@@ -165,7 +170,7 @@ void Monitor::check_step(const CentralDifference& solver) {
                      "Radius below "
                      "the spacing");
     }
-    passed(penetration, text.str());
+    passed(penetration, of_first(body_, !text.str().empty(), text.str()));
   }
 }
 
@@ -322,7 +327,8 @@ void Monitor::tell_if_negative(What what, const char* name, double energy, const
 
 namespace {
 
-// For this rank: the number of points without stress by a criterion of their law, and the first of them, or -1.
+// For this rank: the number of points without stress by a criterion of their law, of quadratic cells those all of whose
+// integration points have failed, since others hold; and the first of them, or -1.
 std::pair<int, int> failed_points(const Body& body) {
   int count = 0, first = -1;
   for (const MaterialBlock& block : body.blocks) {
@@ -330,7 +336,11 @@ std::pair<int, int> failed_points(const Body& body) {
         [&]<class Law>(const Law&) {
           if constexpr (requires(typename Law::State state) { state.failed > 0; }) {
             for (std::size_t k = 0; k < block.points.size(); ++k) {
-              if (!(block.template state_of<Law>(block.place(k, 0)).failed > 0)) continue;
+              int failed = 0;
+              for (int q = 0; q < block.points_per_cell(); ++q) {
+                failed += block.template state_of<Law>(block.place(k, q)).failed > 0 ? 1 : 0;
+              }
+              if (failed < block.points_per_cell()) continue;
               if (++count == 1) first = block.points[k];
             }
           }
@@ -356,8 +366,7 @@ void Monitor::check_failed(double time) {
             "explicit "
             "steps (Solver > Verlet) where material parts";
   }
-  const double turn = own > 0 ? 1.0 / (1 + body_.domain.communicator.rank()) : 0;  // one rank prints
-  tell_once(failing, of_largest(body_, turn, text.str()));
+  tell_once(failing, of_first(body_, own > 0, text.str()));
 }
 
 void Monitor::check_resolution(const Ledger& ledger, bool last) {

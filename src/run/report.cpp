@@ -250,7 +250,7 @@ std::string what_did_not_happen(const Scene& scene, const Ledger& ledger, int be
   const std::string since = before > 0 ? ", since it went on" : "";
   std::string text;
   for (const ToolOfScene& tool : scene.tools) {
-    if (scene.body.domain.communicator.max(*tool.touched ? 1.0 : 0.0) == 0)
+    if (!scene.body.domain.communicator.any(*tool.touched))
       text += "the tool '" + tool.name + "' touched nothing" + since + "\n";
   }
   const auto zero = [](double energy) { return energy == 0; };

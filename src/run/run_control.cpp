@@ -34,7 +34,7 @@ bool EarlyEnd::wanted() const {
 
 std::string EarlyEnd::reason(const Communicator& communicator) const {
   if (asked_) return "ended as it was asked to";
-  return communicator.max(is_signalled() ? 1.0 : 0.0) > 0 ? "ended by a signal" : "ended by its Wall Time";
+  return communicator.any(is_signalled()) ? "ended by a signal" : "ended by its Wall Time";
 }
 
 void say(const Communicator& communicator, const std::string& text) {

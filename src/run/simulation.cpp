@@ -296,8 +296,8 @@ void Run::Parts::leave_equilibrium() {
     quietly([&] { record(); });
     throw;
   }
-  ending = communicator.max(ending || early_end.wanted() ? 1.0 : 0.0) > 0;
-  saving = ending || communicator.max(checkpoint->due_by_the_clock() ? 1.0 : 0.0) > 0;
+  ending = communicator.any(ending || early_end.wanted());
+  saving = ending || communicator.any(checkpoint->due_by_the_clock());
 }
 
 // After an error the run writes a frame, says how to resume, and has ended.

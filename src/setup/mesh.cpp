@@ -252,7 +252,7 @@ void find_probes_again(const std::vector<deck::NodeSet>& sets, Domain& domain) {
     if (!probe.nearest) continue;
     const std::uint64_t bit = bit_of(probe, domain.cloud);
     const auto holds = [bit](std::uint64_t sets_of_point) { return (sets_of_point & bit) != 0; };
-    if (domain.communicator.max(std::ranges::any_of(domain.cloud.sets, holds) ? 1.0 : 0.0) > 0) continue;
+    if (domain.communicator.any(std::ranges::any_of(domain.cloud.sets, holds))) continue;
     const auto position = [&domain](std::size_t i) { return domain.reference(static_cast<int>(i)); };
     mark_nearest(*probe.nearest, bit, position, domain.cloud, domain.communicator);
   }

@@ -76,7 +76,7 @@ void keep_expansion(bool has_expanded, Body& body) {
 }
 
 MigrationState migration_state_of(const Scene& scene, PointCloud cloud) {
-  const bool has_expanded = scene.body.domain.communicator.max(scene.body.expansion.empty() ? 0.0 : 1.0) > 0;
+  const bool has_expanded = scene.body.domain.communicator.any(!scene.body.expansion.empty());
   return {std::move(cloud), scene.weights, scene.dropped,           scene.points, scene.bonds,
           scene.pieces,     scene.tools,   scene.highest_frequency, has_expanded};
 }
@@ -144,7 +144,7 @@ PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, dec
   add_node_sets(deck.node_sets, cloud, communicator, problems);
   check_conditions(deck, cloud, communicator, problems);
   check_interactions(deck, cloud, problems);
-  if (communicator.max(problems.empty() ? 0.0 : 1.0) == 0) add_faces_without_images(deck, apart, communicator, cloud);
+  if (!communicator.any(!problems.empty())) add_faces_without_images(deck, apart, communicator, cloud);
   return cloud;
 }
 

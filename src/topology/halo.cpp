@@ -114,7 +114,7 @@ Halo Halo::restricted_to(const Communicator& communicator, const std::vector<std
 
 const std::vector<ImagePoint>& Halo::images() const { return plan_->images; }
 
-void Halo::set_stretch(const Vector& stretch) const { *plan_->stretch = stretch; }
+void Halo::set_stretch(const Vector& stretch) { *plan_->stretch = stretch; }
 
 const Vector& Halo::stretch() const { return *plan_->stretch; }
 
@@ -141,7 +141,6 @@ void Halo::start(const void* first, std::size_t stride, std::size_t width) const
     to += each;
   }
   plan.distributor->doPosts(Kokkos::View<const double*, Kokkos::HostSpace>(plan.outgoing), each, plan.incoming);
-  bytes_sent_ += static_cast<std::int64_t>(outgoing * sizeof(double));
 }
 
 void Halo::finish(void* first, std::size_t stride, std::size_t width, Reflect reflect) const {

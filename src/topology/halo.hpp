@@ -81,10 +81,8 @@ class Halo {
   const std::vector<ImagePoint>& images() const;
 
   // The present stretch of the periods along x, y, z, which places of images follow; shared with restricted_to().
-  void set_stretch(const Vector& stretch) const;
+  void set_stretch(const Vector& stretch);
   const Vector& stretch() const;
-
-  std::int64_t bytes_sent() const { return bytes_sent_; }  // since the start, by this rank
 
  private:
   // Turns the value of an original into that of its image, in place.
@@ -102,7 +100,6 @@ class Halo {
   struct Plan;
   explicit Halo(std::unique_ptr<Plan> plan);
   std::unique_ptr<Plan> plan_;
-  mutable std::int64_t bytes_sent_ = 0;
 };
 
 }  // namespace strut

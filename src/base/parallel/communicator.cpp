@@ -104,6 +104,13 @@ std::int64_t Communicator::sum(std::int64_t value) const {
   return value;
 }
 
+bool Communicator::any(bool here) const { return max(here ? 1.0 : 0.0) > 0; }
+
+int Communicator::first_rank(bool here) const {
+  const double first = min(here ? rank_ : size_);
+  return first < size_ ? static_cast<int>(first) : -1;
+}
+
 void Communicator::broadcast(std::string& text) const {
   std::vector<char> bytes(text.begin(), text.end());
   broadcast(bytes);

@@ -46,6 +46,8 @@ class Communicator {
   double max(double value) const;
   double min(double value) const;
   std::int64_t sum(std::int64_t value) const;
+  bool any(bool here) const;        // on any rank
+  int first_rank(bool here) const;  // the lowest one where it is true, -1 if none: of ranks that are alike, one speaks
 
   void broadcast(std::string& text) const;  // from rank 0
   template <class T>

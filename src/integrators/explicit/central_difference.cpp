@@ -62,7 +62,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
   std::vector<std::uint8_t> marks = pushed_points(body_, conditions_, contact_, velocities, time_, soon * first);
   contact_.mark_near(marks);
   const bool exposed = any_in_both(marks, multi_stepping_.exposed());
-  if (body_.domain.communicator.max(exposed ? 1.0 : 0.0) > 0) start(marks);
+  if (body_.domain.communicator.any(exposed)) start(marks);
 }
 
 void CentralDifference::start(const std::vector<std::uint8_t>& pushed) {

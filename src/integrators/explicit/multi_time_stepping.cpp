@@ -122,7 +122,7 @@ void MultiTimeStepping::make_levels(Body& body) {
 }
 
 void MultiTimeStepping::serialize(Archive& archive, Body& body) {
-  bool any = body.domain.communicator.max(body.time_levels.empty() ? 0.0 : 1.0) > 0;  // ranks without points have none
+  bool any = body.domain.communicator.any(!body.time_levels.empty());  // ranks without points have none
   std::vector<std::uint8_t> levels(body.owned(), 0);
   if (!body.time_levels.empty()) std::copy_n(body.time_levels.begin(), body.owned(), levels.begin());
   archive.number("has_time_levels", any);

@@ -240,7 +240,7 @@ TimeStepLevels choose_levels(Body& body, double safety_factor, const PresentStep
                              const std::vector<std::uint8_t>& before, bool has_levels) {
   const Communicator& communicator = body.domain.communicator;
   const auto any = [&](const std::vector<std::uint8_t>& marks) {  // a rank without points has no marks
-    return communicator.max(marks.empty() ? 0.0 : 1.0) > 0;
+    return communicator.any(!marks.empty());
   };
   const double margin = std::min(1.0, most_turn / safety_factor);
   const double bearable = (1 + round_off) * present.slack * present.bound;

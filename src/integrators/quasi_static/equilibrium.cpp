@@ -248,7 +248,7 @@ bool Equilibrium::needs_round() const {
   return ranks.max(tools_.violation(ranks.max(tools_.largest_pressure()))) > 1;
 }
 
-bool Equilibrium::contact_has_changed() { return body_.domain.communicator.max(tools_.has_changed() ? 1.0 : 0.0) > 0; }
+bool Equilibrium::contact_has_changed() { return body_.domain.communicator.any(tools_.has_changed()); }
 
 void Equilibrium::linearize() {
   static Teuchos::Time& timer = phase("Tangents");
@@ -280,7 +280,7 @@ void Equilibrium::commit() {
 // Cells that begin to flow have other forces from here on. The difference, by which the body would jump to its next
 // equilibrium, is held at first and fades over the next step; its work counts as that of loads.
 void Equilibrium::begin_flow_of_cells() {
-  const bool any = body_.domain.communicator.max(begin_flow(body_) ? 1.0 : 0.0) > 0;
+  const bool any = body_.domain.communicator.any(begin_flow(body_));
   committed_.take(body_);
   if (!any) return;
   const std::vector<Vector> kept = body_.force_density;

@@ -222,7 +222,7 @@ EquilibriumSearch Newton::solve(const Tolerance& tolerance) {
     search.evaluations += products;
     search.left = advance(search.left, step, moves);
     tell(search, products);
-    search.interrupted = equilibrium_.body().domain.communicator.max(observer_.stop_requested() ? 1.0 : 0.0) > 0;
+    search.interrupted = equilibrium_.body().domain.communicator.any(observer_.stop_requested());
     if (search.interrupted) return search;
     std::fill(way.begin(), way.end(), Vector::Zero());
     moves = false;

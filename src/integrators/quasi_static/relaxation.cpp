@@ -60,7 +60,7 @@ EquilibriumSearch Relaxation::solve(const Tolerance& tolerance, int most) {
   for (int n = 0; n < most && !search.left.failed; ++n) {
     if (n % renewal == 0) {
       renew_masses();
-      search.interrupted = ranks.max(observer_.stop_requested() ? 1.0 : 0.0) > 0;
+      search.interrupted = ranks.any(observer_.stop_requested());
       if (search.interrupted) return search;
     }
     const Field way = n < ramp ? held.way_left(body) : Field(body.owned(), Vector::Zero());

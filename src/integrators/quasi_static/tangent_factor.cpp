@@ -280,7 +280,7 @@ bool TangentFactor::factorize(const Body& body, const std::vector<PointTangent>&
     for (int i = 0; i < body.owned(); ++i) matrix_->add_supports(i, extra[i], held, resembling);
     found = matrix_->factors->factorize();
   }
-  return body.domain.communicator.max(found ? 0.0 : 1.0) == 0;
+  return !body.domain.communicator.any(!found);
 }
 
 void TangentFactor::solve(const Field& right, Field& x) const {

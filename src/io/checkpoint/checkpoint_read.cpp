@@ -358,7 +358,7 @@ CheckpointFacts facts_of_checkpoint(const fs::path& path, const Communicator& co
   communicator.broadcast(file);
   facts.file = file;
   communicator.broadcast(facts.deck);
-  facts.has_expanded = communicator.max(facts.has_expanded ? 1.0 : 0.0) > 0;
+  facts.has_expanded = communicator.any(facts.has_expanded);
   facts.time = communicator.max(communicator.rank() == 0 ? facts.time : -std::numeric_limits<double>::infinity());
   return facts;
 }

@@ -122,7 +122,7 @@ PointCloud points_of(const MeshSource* mesh, const std::string& name, PointsAt a
       (at == PointsAt::nodes ? at_nodes : at_elements)(mesh, layout, name, with_cells, planes, communicator, apart);
   const auto alone = [](const std::vector<std::int64_t>& shared_nodes) { return shared_nodes.empty(); };
   const bool any_alone = std::any_of(cloud.shared_nodes.begin(), cloud.shared_nodes.end(), alone);
-  cloud.has_shared_nodes = with_cells && communicator.max(any_alone ? 1.0 : 0.0) == 0;
+  cloud.has_shared_nodes = with_cells && !communicator.any(any_alone);
   return cloud;
 }
 

@@ -96,7 +96,7 @@ std::optional<LatticeFrame> frame_of(const BodyPoints& points, int body, const C
     if (cells_within(frame, axis) > LatticeFamilies::width) return {};
   }
   if (!is_compact(frame, box.sizes().array(), static_cast<double>(count))) return {};
-  if (communicator.max(fits(frame, points.positions) ? 0.0 : 1.0) > 0) return {};
+  if (communicator.any(!fits(frame, points.positions))) return {};
   return frame;
 }
 

@@ -93,7 +93,7 @@ std::vector<LatticeFrame> frames_with_images(const std::vector<LatticeFrame>& fo
         }
       }
     }
-    if (communicator.max(fits ? 0.0 : 1.0) == 0) frames.push_back(frame);
+    if (!communicator.any(!fits)) frames.push_back(frame);
   }
   return frames;
 }

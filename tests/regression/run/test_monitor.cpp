@@ -557,6 +557,51 @@ TEST(Monitor, PointsThatAreDrawnApartWithoutTearingAreToldOf) {
                         " of block bar, reference position (", "no Damage Model", "told once"});
 }
 
+// Two bodies that are alike to the last bit, one on each of two ranks: one of them is told of.
+TEST(Monitor, OfBodiesThatAreAlikeOneIsToldOf) {
+  const RunFolder folder;
+  const double h = std::ldexp(1, -10);
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, h) + cubes(2, {128 * h, 0, 0}, 3, 3, 3, h));
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.conditions = along("pull", "Prescribed Displacement", "all", "z", "9e6*z*t") +
+                     along("sides", "Prescribed Displacement", "all", "xy", "0");
+  parts.times = key("Final Time", "1e-6");
+  parts.watch = key("Balance Error", "1") + key("Beyond Limits", "Continue");
+  const Outcome o = outcome(folder, parts);
+  EXPECT_EQ(o.error, "");
+  EXPECT_EQ(folder.world.sum(o.said.find("drawn") != std::string::npos ? 1.0 : 0.0), 1);
+}
+
+// A quadratic cell holds while one of its integration points does: it is told of when all have failed, whichever was
+// first, at its upper or lower end.
+TEST(Monitor, CellsThatHoldInPartHaveNotFailed) {
+  const auto told = [](const std::string& way) {
+    const RunFolder folder;
+    folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 6, 1e-3));
+    Parts parts;
+    parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+    parts.materials = section(
+        "copper", key("Material Model", "Metal Foam Correspondence") + key("Formulation", "Quadratic Correspondence") +
+                      key("Density", "150") + key("Young's Modulus", "300e6") + key("Poisson's Ratio", "0") +
+                      key("Plastic Poisson's Ratio", "0") + key("Plateau Stress", "1e9") +
+                      key("Linear Hardening", "0") + key("Locking Stress", "2e6") + key("Locking Exponent", "8") +
+                      key("Densification Strain", "1.0") + key("Failure Strain", "0.01"));
+    parts.conditions = along("sides", "Prescribed Displacement", "all", "xy", "0") +
+                       along("way", "Prescribed Displacement", "all", "z", way + "*t");
+    parts.times = key("Final Time", "1");
+    parts.verlet = key("Number of Load Steps", "2");
+    const Outcome o = outcome(folder, parts, "QuasiStatic");
+    EXPECT_EQ(o.error, "");
+    return folder.world.any(o.said.find("points have failed (Failure Strain)") != std::string::npos);
+  };
+  // A strain of 0.01 within the last cells, above or below their centers, or over all of them.
+  EXPECT_FALSE(told("z^2*0.005/5.6e-3"));
+  EXPECT_FALSE(told("(6e-3 - z)^2*(-0.005)/5.6e-3"));
+  EXPECT_TRUE(told("z^2*0.005/4.5e-3"));
+  EXPECT_TRUE(told("(6e-3 - z)^2*(-0.005)/4.5e-3"));
+}
+
 // A roll reaches the bar at rest after some thirty rows, and is thinner than the points are apart. In that row nothing
 // is known of the energy yet but the round-off of a difference: v of half an impulse, squared, less the same.
 TEST(Monitor, ABodyThatHasJustBeenStruckIsInBalance) {

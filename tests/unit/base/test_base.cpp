@@ -114,6 +114,15 @@ TEST(Communicator, Reductions) {
 }
 
 // Terms of very different size in any order on any rank: the same bits, and as near the true sum as doubles get.
+TEST(Communicator, OfRanksThatAreAlikeTheFirstSpeaks) {
+  const Communicator world;
+  EXPECT_EQ(world.first_rank(true), 0);
+  EXPECT_EQ(world.first_rank(world.rank() >= world.size() / 2), world.size() / 2);
+  EXPECT_EQ(world.first_rank(false), -1);
+  EXPECT_TRUE(world.any(world.rank() == world.size() - 1));
+  EXPECT_FALSE(world.any(false));
+}
+
 TEST(Communicator, ReproducibleSumDoesNotKnowOfRanks) {
   const Communicator world;
   const auto term = [](int k) { return std::sin(k) * std::pow(10, k % 7) / 3; };
