@@ -13,7 +13,8 @@ namespace strut::contact {
 // For each of pairs.owned its index in blocks.points.
 std::vector<int> places_in(const BlockPair& blocks, const Pairs& pairs);
 
-// Ids of the far ends of bonds of blocks.points[at] that a search knows to be broken and the search before it did not.
+// Ids of the far ends of the bonds of blocks.points[at] that broke between two searches: `before` and `now` are the
+// numbers of broken bonds that the former and the present search know.
 // `before` may be empty: no search yet.
 std::vector<std::int64_t> new_breaks(const Domain& domain, const BlockPair& blocks, int at, const BrokenCounts& before,
                                      const BrokenCounts& now);

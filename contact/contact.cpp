@@ -11,9 +11,10 @@ namespace strut::contact {
 
 namespace {
 
-// The sum of both points' usual skin distances, in units of the smaller horizon. Points that are not bonded start at
-// least one horizon apart, and a pair touches at no more than 0.9 of its initial distance. Because the sum is below a
-// tenth, pairs of undeformed material are listed only for fast points, others when they are strained by the rest of it.
+// The sum of the usual skin distances of two points, in units of the smaller horizon. Points that are not bonded start
+// at least one horizon apart, and a pair touches at 0.9 of its initial distance or less. As long as this sum is below
+// 0.1, pairs of undeformed material are listed only for fast points, and other pairs only once the material has shrunk
+// by the remainder of this tenth.
 constexpr double skin_share = 0.08;
 
 // A search is made this many steps before a skin distance is used up, because the motion of the next step is a

@@ -118,7 +118,7 @@ class Contact {
     Vector mean_velocity = Vector::Zero();  // m/s
     double used = 0;     // a bound of the fraction of its skin distance that any point has used since the last search
     bool meets = false;  // points whose bonds have broken since then are near each other
-    bool check_due = true;  // `used` has come near 1: the next check is due
+    bool check_due = true;  // `used` is near 1: the skin distances must be checked in the next step
     ForceResult result = {};
     std::vector<Load> loads = {};       // of pairs.owned, if the model is one of points
     std::vector<Vector> friction = {};  // N, on pairs.owned

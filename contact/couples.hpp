@@ -28,8 +28,8 @@ class PatchSums {
   void add(double weight, const Vector& place);
   Vector middle() const { return first_ / weight_; }  // some weight must have been added
 
-  // `arm`: distance from the center at which friction acts, m. The patch does not turn about an axis whose moment is so
-  // small compared with it that a force there would meet almost no inertia.
+  // `arm`: distance from the center at which friction acts, m. The patch does not turn about an axis whose moment of
+  // inertia is so small that a force at this distance would meet almost no inertia.
   Patch patch(double arm) const;
 
  private:

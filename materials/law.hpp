@@ -17,7 +17,7 @@
 //   equivalent_stress the stress that is compared with the flow stress, Pa.
 //   flow_stress       the equivalent stress at which the point yields, Pa; infinity if it never yields.
 //   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever
-//                     flowed or softened. The integration points of its cell then share their change of volume
+//                     flowed or softened. The integration points of its cell then get their mean change of volume
 //                     (volumetric locking: src/mechanics/formulation/quadratic.md).
 //   part_left         optional, for laws that soften as they fail: fraction of stress that a point still carries, 1 to
 //                     0, with the state as an argument. It also scales the stabilization.

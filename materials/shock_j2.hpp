@@ -2,7 +2,7 @@
 // that of ThermalJ2; the energy is the work of stress and artificial viscosity.
 //   ė = s : d v − (p + q) v̇,  Ṫ = … − Γ T v̇     (per reference volume; compression heats, too)
 // Method: p at the end of a step enters the work of that step; both are linear in it, so it is solved for directly. v
-// is integrated from the rates: integration points that share their change of volume have the same pressure.
+// is integrated from the rates, so that integration points with the same change of volume have the same pressure.
 // Units: Pa, J/m³, K.
 #pragma once
 

@@ -30,7 +30,7 @@ std::string without_effect(const Situation& situation);
 
 // ---- doubled_numbers.cpp
 
-// A warning with the lowest number that several points share, and how many points repeat a number; "" if none does.
+// A warning with the lowest number that several points have, and how many points repeat a number; "" if none does.
 std::string doubled_numbers(const Situation& situation);
 
 // ---- lattice_volumes.cpp

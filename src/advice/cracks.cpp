@@ -49,10 +49,10 @@ Tensor axes_of(const Domain& domain, const MaterialBlock& block) {
   const auto has_fewer = [&](int i, int j) { return domain.families.size(i) < domain.families.size(j); };
   const auto best = std::max_element(block.points.begin(), block.points.end(), has_fewer);
   const double mine = best == block.points.end() ? -1.0 : static_cast<double>(domain.families.size(*best));
-  const double most = communicator.max(mine), rank = communicator.rank();
-  const double teller = communicator.min(mine == most ? rank : communicator.size());  // of several the first
+  const double most = communicator.max(mine);
+  const int teller = communicator.first_rank(mine >= 0 && mine == most);
   Tensor axes = Tensor::Zero();
-  if (mine >= 0 && teller == rank) axes = lattice_axes(domain, *best);
+  if (teller == communicator.rank()) axes = lattice_axes(domain, *best);
   communicator.sum(std::span<double>(axes.data(), 9));
   return axes;
 }

@@ -77,7 +77,7 @@ void move_snapshot(Snapshot from, const RanksOfPoints& ranks, Snapshot& to, cons
       throw std::logic_error("another partition keeps other things of points: " + to.groups[g].name);
     }
     const Outgoing outgoing = leaving(from.groups[g], ranks);
-    from.groups[g] = {};  // the largest part of a run, three copies already
+    from.groups[g] = {};  // frees memory: the points are the largest part of a run, and three copies of them exist here
     take(sent_to_ranks(outgoing.ranks, outgoing.records, width, communicator), to.groups[g]);
   }
 }

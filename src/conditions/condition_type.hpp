@@ -90,7 +90,8 @@ concept AddsForces = requires(const T& condition, double t, double impulse_time,
   { condition.add_work(t, impulse_time, after, work) } -> std::same_as<void>;
 };
 
-// If acts_at_start: for the initial velocities, and for the check for undeclared contact (setup), which looks ahead.
+// If acts_at_start: for the initial velocities, and for the check for undeclared contact (setup), which predicts the
+// motion.
 //   predict_velocities  writes the velocities that it imposes at time t into `velocities`; if it imposes positions,
 //                       their slope at t, from the `moment` (s) after it
 template <class T>

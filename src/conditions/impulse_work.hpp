@@ -43,8 +43,9 @@ struct Work {
 struct ImpulseWork {
   Work before, after;
 
-  // The same between steps of different lengths: each gets its part of the impulse. The rest of the work belongs to the
-  // side of the shorter step, because the kinetic energy is that of the longer one; at the start of a run all is after.
+  // The same between steps of different lengths: the interval of the longer step gets the work of its part of the
+  // impulse, that of the shorter step the rest, because the conserved kinetic energy is that of the longer step
+  // (MidSteps::conserved_square). At the start of a run all work belongs to the step after.
   ImpulseWork split(const MidSteps& steps) const {
     const Work all = before + after;
     if (steps.before > 0 && steps.before < 0.5) {

@@ -19,8 +19,8 @@ double imposed_velocity(const PrescribedMotion& motion, int c, int i, const Velo
   return (target - body.domain.sites[i].current[c]) / dt;
 }
 
-// The slope of a displacement at t, m/s, to second order in `moment`: 0 of one that grows with t². Where it jumps, the
-// mean, which the first step imposes; where it begins later, 0.
+// The slope of a displacement at t, m/s, to second order in `moment`: for one that grows with t² it is 0. If the value
+// jumps at t, the mean slope over `moment`, which the first step imposes; if the motion begins later, 0.
 double slope_of(const auto& value, double t, double moment) {
   const double half = value(t + 0.5 * moment) - value(t), whole = value(t + moment) - value(t);
   const double slope = (4 * half - whole) / moment, mean = whole / moment;

@@ -43,8 +43,9 @@ struct FreeMotion {
   // Reacts to the impulse (N s) given to the points of all ranks at `time`. Adds its work and that of the tool's force.
   void push_back(const Vector& impulse, const Body& body, ImpulseWork& work);
 
-  // Keeps it from moving across the planes of which it is its own image, behind which its other half and what that
-  // pushes are images: the forces on both halves cancel there. Not if a velocity or force of the deck is across them.
+  // Removes the directions normal to symmetry planes from those in which forces move the tool, if the tool is its own
+  // mirror image by the plane: the forces on its two halves cancel along the normal. A plane is left out if a velocity
+  // or a force of the deck has a component along its normal.
   void keep_between(const std::vector<Mirror>& mirrors, const Shape& shape);
 
   double kinetic_energy() const {  // J, at `time`

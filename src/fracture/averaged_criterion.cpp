@@ -14,7 +14,7 @@ namespace strut {
 
 namespace {
 
-// An average is due where a point's indicator has grown by this much since the last one: it is met at 1.
+// Indicators are averaged again once one has grown by this much since the last average; a point fails at 1.
 constexpr double due_growth = 0.01;
 
 constexpr double most_passes = 1000;  // a ball of some 50 spacings
@@ -134,10 +134,10 @@ void AveragedCriterion::average(Body& body) {
     double sum = 0;
     for (int q = 0; q < block.points_per_cell(); ++q) {
       double& own = block.state->at(block.place(k, q), one.number);
-      if (own < 1) own = averaged;  // a point that softens goes on
+      if (own < 1) own = averaged;  // a point that softens already keeps its own indicator
       sum += own;
     }
-    body.averaged_indicator[i] = sum / block.points_per_cell();  // growth that was given is not given again
+    body.averaged_indicator[i] = sum / block.points_per_cell();  // the next average starts from here
   });
 }
 

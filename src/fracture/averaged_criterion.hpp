@@ -2,9 +2,9 @@
 //
 // A criterion that only the point itself feels has no length: at a notch or in a neck finer points reach it sooner.
 // Here its growth is averaged over a ball of radius R (Pijaudier-Cabot & Bažant 1987, for damage). The average is made
-// of passes over the families, each of which replaces a value by its mean with the neighbors or goes a part of that
-// way; the variances of the passes add up to that of the ball, R²/5 along each axis. Bonds that have broken take no
-// part: nothing is averaged across a crack or from one strut to another.
+// of passes over the families. Each pass replaces a value by its mean over the family, or moves it toward this mean by
+// a fraction. The variances of the passes add up to that of the ball, R²/5 along each axis. Broken bonds do not count,
+// so nothing is averaged across a crack or from one strut to another.
 #pragma once
 
 #include <vector>
@@ -29,7 +29,7 @@ class AveragedCriterion {
   struct OfBlock {
     std::size_t block;
     int number;   // of the indicator among the law's state variables
-    double part;  // of the way to the mean that a pass goes
+    double part;  // fraction by which a pass moves a value toward its mean
   };
 
   template <class Visit>

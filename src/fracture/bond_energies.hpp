@@ -30,19 +30,20 @@ class BondEnergies {
   bool any() const { return !points_.empty(); }
   bool any_of(std::size_t block) const { return any() && concerned_[block]; }
 
-  // Call it before a step changes the expansions: stores those of the present force states.
+  // Call it before a step changes the thermal strains: stores those that belong to the present force states.
   void take_expansions(const Body& body);
-  // At the start of a step, stores the force states of the last sum of forces. Returns a flag for each owned point and
-  // ghost whose a changed by more than a relative displacement of two points by `travel` (m) explains: bonds of it have
-  // broken. Empty if there is none.
+  // Called before the stress update, when the points have moved by up to `travel` (m) relative to each other: stores
+  // the force states of the last sum of forces, which are those at the start of the step. Returns a flag for each owned
+  // point and ghost whose `a` has changed by more than that displacement explains: some of its bonds have broken. Empty
+  // if there is none.
   std::vector<char> take_states(const Body& body, double travel);
 
   using Lanes = small::Lanes;
   using Visit = std::function<void(std::size_t n, const Lanes& load, const Lanes& slack)>;
-  // Calls visit(n, load, slack) for each of the n neighbors of a cluster: load = w/w_c, or 0 if the bond holds for any
-  // w; slack = the relative displacement (m) of two points below which w cannot reach w_c, the lesser of the two ends'.
-  // A bond that is no longer than its ends have expanded, on the mean, has w = 0. `places`: positions of owned points
-  // and ghosts at the time of the states, m.
+  // Calls visit(n, load, slack) for the n-th neighbor of a cluster. load: w/w_c, with the lesser w_c of both ends; 0 if
+  // a break of the bond would release no energy. slack: the relative displacement of two points (m) below which w
+  // cannot reach w_c. A bond that is no longer than its ends have expanded on average has w = 0. `places`: positions of
+  // owned points and ghosts at the time of the force states, m.
   void over(const Body& body, const Cluster& cluster, const std::vector<Vector>& places, const Visit& visit) const;
 
   double bytes() const { return static_cast<double>(points_.size() * sizeof(Point)); }

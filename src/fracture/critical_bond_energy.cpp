@@ -12,7 +12,7 @@ namespace {
 // and the halves are symmetric.
 struct CrossingBond {
   double weight, length, extension;  // ω V, m³; m; m
-  int place, far_place;              // of its ends: layers, counted from the plane, by rows
+  int place, far_place;              // of its ends: index layer · rows + row; layers are counted from the plane
 };
 
 class SeparatedHalves {

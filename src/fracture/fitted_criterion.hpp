@@ -1,9 +1,9 @@
 // The mean stress that the criterion of ductile failure reads in cells by quadratic correspondence.
 //
 // In plastic flow the volume of cells alternates from one to the next, as in elements with one pressure each. The sum
-// of forces does not feel that, but a criterion that falls steeply with the mean stress does. Here the criterion gets
-// the stress of its integration point with the mean stress of a plane through the means of the family's cells (least
-// squares, weighted by volume). Broken bonds take no part.
+// of forces does not show that, but a criterion that falls steeply with the mean stress does. Here the criterion gets
+// the stress of its integration point, shifted by the difference between a plane through the mean stresses of the
+// family's cells (least squares, weighted by volume) and the mean stress of its own cell. Broken bonds take no part.
 #pragma once
 
 #include <vector>

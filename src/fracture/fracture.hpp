@@ -41,8 +41,9 @@ class Fracture : public BondBreaking {
     fitted_.finish(body);
     averaged_.average(body);
   }
-  // Collective. Call it before owned points move over a step of dt (s) with these velocities (m/s), and periodic sides
-  // by more `stretch` along x, y, z. Otherwise no bond breaks in the stress update that follows.
+  // Collective. Call it before the points move over a step of dt (s); without this call no bond breaks in the stress
+  // update that follows. `velocities`: of owned points, m/s; `stretch`: increment of the stretch of periodic sides in
+  // the step, along x, y, z.
   void start_step(const Body& body, std::span<const Vector> velocities, double dt,
                   const Vector& stretch = Vector::Zero());
   // Called in the stress update at the end of a step, first for the points that need no ghost and, once ghosts are

@@ -1,5 +1,6 @@
-// Two halves of a lattice that are pulled apart, the critical stretch or bond energy for which a crack then dissipates
-// the given fracture energy, and how the stress follows the jump of the gradient where bonds break.
+// A lattice whose two halves are pulled apart: the energy that its breaking bonds dissipate. From it follow the
+// critical stretch or bond energy of a block with a given fracture energy. Also the fraction of a strain jump that the
+// stress follows when bonds break.
 #pragma once
 
 #include <vector>
@@ -63,9 +64,9 @@ struct GradualCrack {
 };
 GradualCrack gradual_crack(const PulledLattice& lattice, double fracture_energy);
 
-// Limit of the steepness of families with broken bonds, relative to an interior point: that of points at a corner,
-// which have an eighth of the family, and some more: a lattice has families of exactly 8, which round-off, or a mirror,
-// must not part. A steeper point carries no stress.
+// Limit of the steepness of families with broken bonds, relative to that of an interior point; a steeper point carries
+// no stress. It is the ratio 8 of a point at a corner, which has an eighth of the family, plus a tolerance: on a
+// lattice many points have exactly 8, and round-off or a mirror must not decide between them.
 inline constexpr double steepness_of_corners = 8 * (1 + 1e-9);
 
 // The fraction of a strain jump that the stress follows, for linear elasticity: the λ from 0 to 1 that minimizes the

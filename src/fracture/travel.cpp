@@ -63,7 +63,9 @@ bool Travel::advance(const Body& body, std::span<const Vector> velocities, doubl
     const double speed = all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs()).norm();
     all.extend(Vector::Constant(speed)), all.extend(Vector::Constant(-speed));
   }
-  double passed = -never, at_ghosts = -never;  // excess over a due travel, m; where ghosts are: without this step
+  // Largest excess of the travel over the one at which a check must follow, m: of regions without ghosts; of those with
+  // ghosts, before this step is added.
+  double passed = -never, at_ghosts = -never;
   for (std::size_t r = 0; r < regions_.size(); ++r) {
     Region& region = regions_[r];
     if (region.box.isEmpty()) continue;

@@ -1,8 +1,8 @@
 // An upper bound for the relative displacement of any two bonded points.
 //
-// Consecutive clusters form a region. Points of a region and of its families move apart no faster than the diagonal
-// of the box of their velocities. If ghosts are among them, whose velocities are unknown, the box of all points is
-// used, and what moves periodic sides apart.
+// Consecutive clusters form a region. Points of a region and of its families move apart no faster than the diagonal of
+// the bounding box of their velocities. If there are ghosts among them, whose velocities are unknown, the box of the
+// velocities of all points is used, and the displacement of the periodic sides is added.
 #pragma once
 
 #include <span>
@@ -17,8 +17,8 @@ class Travel {
   explicit Travel(const Domain& domain);
 
   // Collective. Adds a step of dt (s) with these velocities of owned points (m/s). `due`: travel at which each cluster
-  // must be checked, m; infinite if it need not be. `stretch`: what the step adds to the stretch of periodic sides
-  // along x, y, z. Returns true if any is due, on any rank.
+  // must be checked, m; infinite if it need not be. `stretch`: increment of the stretch of periodic sides in the step,
+  // along x, y, z. Returns true if a cluster of any rank must be checked.
   bool advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> due,
                const Vector& stretch);
 

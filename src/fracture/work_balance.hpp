@@ -9,7 +9,7 @@
 
 namespace strut {
 
-// The positions of the points at one end of a step.
+// One end of a step, at which a balance is evaluated: the start if `at_start`, else the end.
 struct StepEnd {
   const Body& body;
   const std::vector<Vector>& start;  // positions of owned points and ghosts at the start of the step, m

@@ -4,7 +4,7 @@ namespace strut {
 
 namespace {
 
-// The changes of the periods from t over dt, m.
+// The displacement of the upper side of a period relative to the lower one, from t over dt (s), m.
 Vector way_of(const Domain& domain, const Period& period, double t, double dt) {
   const Vector more = stretch_at(domain.periods, t + dt) - stretch_at(domain.periods, t);
   return period.length * more[period.axis] * Vector::Unit(period.axis);

@@ -8,7 +8,8 @@
 
 namespace strut {
 
-// A time at which forces act, and the lengths of the steps before and after it; s. `before`: 0 at the start of a run.
+// A time at which forces act, the lengths of the steps before and after it (`before`: 0 at the start of a run), and the
+// time over which the impulse of the forces acts; all in s.
 struct TimeOfImpulse {
   double t, before, after, impulse;
 };

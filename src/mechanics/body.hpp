@@ -26,7 +26,7 @@ class QuadraticFits;
 // 2ⁿ for a small n. A call of std::ldexp for each point would take a hundredth of the time of a step.
 inline double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52); }
 
-// The fields of the owned points of a body.
+// The fields of the owned points of a body; time_levels has entries for ghosts, too.
 struct PointFields {
   FieldSet fields;
   PointField<MaterialPoint> points = fields.add<std::vector<MaterialPoint>>(At::point, parts_of_material_point());

@@ -22,7 +22,7 @@ struct HeatedPoints {
 struct PointExpansion {
   double before = 0, now = 0;  // ε at the start and at the end of the point's last step
   double pull = 0;             // −J tr σ/(1 + ε), J/m³ of the reference volume: the work of expansion, by ε
-  double work = 0;             // J/m³, since the start of the run
+  double work = 0;             // J/m³, so far, also in runs that this one continues or starts from
   double reference = std::numeric_limits<double>::quiet_NaN();  // T₀, K; NaN until a temperature is prescribed
 
   // Counts the work of the step, by the mean pull of its ends.

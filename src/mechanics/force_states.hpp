@@ -24,8 +24,9 @@ struct ForceState : TensorRecord {
   double lost_bonds() const { return column[2][3]; }
 };
 
-// F. Scalars, of the springs on the residual of both ends' gradients: C; the fraction of the step at whose end they
-// act; the index of the stabilization in the variant.
+// F. Scalars, of the springs on the residual of both ends' gradients: C; the factor on their force, which is the
+// point's fraction of the step, or its square in a tangent (tangent_operator.cpp); the index of the stabilization in
+// the variant.
 struct GradientState : TensorRecord {
   double& stiffness() { return column[0][3]; }
   double stiffness() const { return column[0][3]; }

@@ -66,8 +66,8 @@ struct ResidualSum {
   }
 };
 
-// Force of the far ends of the bonds on the points of a group by quadratic correspondence; for the neighbor lists of
-// whole steps, substeps and tangents.
+// The force (N/m³) of the far ends of the bonds of a cluster's points, by quadratic correspondence. Whole steps,
+// substeps and tangents use it with their own neighbor lists.
 template <class Weight>
 small::Vector3<small::Lanes> quadratic_far_forces(const Body& body, const Cluster& cluster, const ForceStates& states,
                                                   Weight weight) {

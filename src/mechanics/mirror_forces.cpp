@@ -26,8 +26,8 @@ struct OfImages : bonds::NearPoint {
 
 Vector to_vector(const small::Vector3<double>& v) { return {v.c[0], v.c[1], v.c[2]}; }
 
-// The force density (N/m³) of some bonds of a point by all formulations. `due`: those of the family whose far ends act
-// now. `own`: the point's own state acts now, on all bonds of the family.
+// The force density (N/m³) of some bonds of a point by all formulations. `due`: the bonds of `family` whose far ends
+// act at this time. `own`: true if the point's own state acts at this time, on all bonds of `family`.
 template <class Family, class Due, class Weight>
 Vector force_of(const Body& body, const Family& family, const Due& due, bool own, Weight weight) {
   const Site* sites = body.domain.sites.data();
@@ -83,8 +83,8 @@ std::vector<int> moving_points(const Body& body, const std::vector<int>* moved, 
   return points;
 }
 
-// The force through the bonds to the images that `picks` selects on some points, N. Only ends that are due at `level`
-// act: an image that is not is still pulled by the point.
+// The force on some points through their bonds to the images that `picks` selects, N. Only ends with a time-step level
+// of at least `level` act; the point's own state also acts through bonds to other images.
 template <class Picks>
 Vector image_force(const Body& body, const std::vector<int>& points, int level, const Picks& picks) {
   const auto acts = [&](int j) { return picks(j) && body.is_due(j, level); };
@@ -99,7 +99,7 @@ Vector image_force(const Body& body, const std::vector<int>& points, int level, 
   return sum;
 }
 
-// For each site; 0 for sites that are no images.
+// For each site, how many periods it is above its original; 0 for sites that are no images.
 std::vector<int> periods_above(const Domain& domain, const Period& period) {
   std::vector<int> above(domain.sites.size(), 0);
   for (const ImagePoint& image : domain.halo.images()) above[image.ghost] = strut::periods_above(image.by, period);

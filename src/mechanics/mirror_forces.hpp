@@ -8,7 +8,7 @@
 namespace strut {
 
 // This rank's part of the force through the sides of each of domain.periods, along its axis, tension positive, N: the
-// change of the bonds' energy with the period. When to call it: as mirror_forces.
+// change of the bonds' energy with the period. Parameters, and when to call it: as mirror_forces.
 std::vector<Vector> period_forces(const Body& body, int level, const std::vector<int>* moved);
 
 // Number of a domain's sides (mirrors, or periods), and the index of a side's condition in the deck.
@@ -17,8 +17,9 @@ inline int number_of_side(const Domain& domain, std::size_t side) {
   return domain.periods.empty() ? domain.mirrors[side].number : domain.periods[side].number;
 }
 
-// This rank's part of the force of each of domain.mirrors along its normal, N. Call it after a sum of forces, before
-// force_density changes. In a substep of `level`, only forces on `moved` are current, and only points that are due act.
+// This rank's part of the force of each side, N: of domain.periods if there are any (period_forces), else of
+// domain.mirrors along their normals. Call it after a sum of forces, before force_density changes. In a substep of
+// `level`, only the forces on `moved` are current, and only points with a time-step level of at least `level` act.
 std::vector<Vector> mirror_forces(const Body& body, int level = 0, const std::vector<int>* moved = nullptr);
 
 void serialize_mirror_forces(Archive& archive, std::vector<Vector>& forces);

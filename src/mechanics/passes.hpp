@@ -43,9 +43,9 @@ inline bool is_due(const MaterialBlock& block, Bodies bodies) {
   return bodies == Bodies::all || !block.in_rigid_motion;
 }
 
-// Calls work(block, groups of its points) for a part of the points. Sums over a lattice are of all points at once, so
-// lattices come with the boundary part, after the exchange; points that have lost bonds come last. `sweep`: runs a
-// sweep of sums over a lattice and passes them to a function.
+// Calls work(block, groups of its points) for a part of the points. A sweep over a lattice needs the ghosts and
+// computes the sums of all its points, so all points on lattices belong to the boundary part; those that have lost
+// bonds come last. sweep(sums, take) computes the sums over one lattice and passes them to `take`, chunk by chunk.
 template <class AnyBody, class Sweep, class Work>
 void over_blocks(AnyBody& body, Bodies bodies, Part part, const Sweep& sweep, const Work& work) {
   for (auto& block : body.blocks) {

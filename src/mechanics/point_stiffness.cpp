@@ -46,7 +46,8 @@ void add_cell(const Body& body, const MaterialBlock& block, int k, const std::ve
       weights, body.domain.volume(i), [&](const CellTensors& dF) { return tangent.change(dF); }, result.matrix);
 }
 
-// Adds the springs of a point on the residuals of its own gradient, η − F ξ: V C Σ ω V_j |z_j|².
+// Adds the springs of a point on the residuals z = η − F ξ of its own gradient: the second derivative of their energy,
+// ½ V C Σ ω V_j |z_j|². `share`: ω V_j by point; `stiffness`: V C.
 void add_springs(const Weights& weights, const Weights& bonds, const Eigen::VectorXd& share, double stiffness,
                  Eigen::MatrixXd& matrix) {
   Eigen::MatrixXd residuals = -bonds.transpose() * weights;  // row j: derivative by the positions of the points

@@ -15,9 +15,9 @@ Symmetric inverse_of(const Tensor& K);
 // is 0 if the point carries no stress.
 double steepness(const Body& body, int i);
 
-// l² V tr S⁻¹ of an owned point, S = Σ V ξ ⊗ ξ over its family and l = V^⅓, V of the whole cell: 0.3 or less inside of
-// a lattice, 1.3 at corners of two layers. A family near one plane has (l/t)²/n: only n neighbors, at a mean distance t
-// from the plane, determine F across it.
+// l² V tr S⁻¹ of an owned point, where S = Σ V ξ ⊗ ξ over its family, V is the volume of its whole cell and l = V^⅓. It
+// is 0.3 or less inside a lattice and 1.3 at corners of two layers. If almost all neighbors lie in one plane it is
+// (l/t)²/n: only the n others, at a mean distance t from the plane, determine F across it.
 double flatness(const Domain& domain, int i);
 
 }  // namespace strut

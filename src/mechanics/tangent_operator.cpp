@@ -11,8 +11,9 @@ namespace {
 
 using small::Lanes;
 
-// The force state of the tangent at one point, for δF. A subcycled point, whose step is a fraction `share` of the whole
-// step, limits its own step as a point with share² of the stiffness limits the whole step. C: of its springs, Pa/m⁵.
+// The force state of the tangent at one point, for δF. `share`: length of the point's own step over that of the whole
+// step; the stiffness is scaled by its square, because such a point limits its own step as a point of that stiffness
+// limits the whole step. `C`: of the springs on its own gradient, Pa/m⁵.
 ForceState tangent_state(const MaterialPoint& point, const Symmetric& shape_inverse, double C,
                          const materials::Moduli& moduli, const Tensor& dF, double share) {
   const Tensor A = elastic_change(point, moduli, dF) * to_tensor(shape_inverse) - C * dF;

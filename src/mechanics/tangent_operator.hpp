@@ -13,7 +13,8 @@ struct PointTangent;
 // `directions`: a copy of the body's sites that holds v in place of y.
 // `tangents`: of the owned points by correspondence (tangent.hpp); null: those of the elastic moduli, without the
 // geometric stiffness (of the order stress/modulus), which ordinary points never include.
-// `scratch`: a copy of body.force_states, or these themselves: forces and the next stress update do not read them.
+// `scratch`: overwritten; a copy of body.force_states, or these themselves if no bond may break in the next step:
+// breaks read the force states of the last sum of forces.
 void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
                    const std::vector<PointTangent>* tangents, ForceStates& scratch, std::vector<Vector>& result);
 

@@ -51,7 +51,7 @@ class Reduction {
   std::vector<std::string> columns() const;
   std::string unit() const { return number_.observable.unit; }
   std::vector<double> values(const Body& body) const;  // collective
-  // Collective. False if a layer has no point with the variable.
+  // Collective. False if a layer has no point with the variable and its mean is wanted; a sum is then 0.
   bool exists(const Body& body) const;
 
  private:

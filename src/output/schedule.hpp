@@ -32,7 +32,7 @@ class Schedule {
   std::optional<int> frequency_;
   std::optional<double> interval_;
   double initial_time_, next_time_;
-  double due_at_ = never;  // s, also due at this time
+  double due_at_ = never;  // s, a time of the former schedule at which output is still to be written
   std::optional<double> uncounted_;
 };
 

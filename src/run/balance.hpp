@@ -29,7 +29,8 @@ class Balance {
   bool enabled_;
   double most_, final_time_;  // largest allowed work of a rank over the mean; s
   bool verbose_;
-  double accepted_ = 0;  // work over the mean at the last check above the limit; the next change needs a tenth more
+  // Largest work of a rank over the mean after the last decision; a new partition is considered at a tenth more.
+  double accepted_ = 0;
   std::optional<std::vector<int>> restored_;
 };
 

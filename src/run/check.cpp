@@ -52,8 +52,8 @@ void shake(Body& body, double dt) {
   }
 }
 
-// The same for steps in which all points move; in the first steps of a run bodies may be in rigid motion, which costs
-// nothing.
+// Wall time of a step in which all points deform, s: in the first steps of a run bodies may be in rigid motion, which
+// costs nothing. 0 if the imposed velocities make points fail.
 double measured_moving_step(const deck::Deck& deck, CentralDifference& solver, Body& body) {
   try {
     shake(body, solver.dt());

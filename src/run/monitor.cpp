@@ -24,10 +24,10 @@ constexpr double much_in_springs = 0.1;
 // Stretch of neighbors, in spacings, above which the material between them is not resolved any more.
 constexpr double far_stretched = 8;
 
-// Above this largest |ln det F| what rate laws store may be the cause of a warning: it errs by a third of that.
+// Above this largest |ln det F| laws in rate form may cause a balance error: their stored energy errs by a third of it.
 constexpr double much_volume = 0.02;
 
-// The balance error worth a warning, relative to the largest energy; the limit of a gain, relative to that of a loss.
+// Least balance error that gets a warning, relative to the largest energy; limit of an energy gain over that of a loss.
 constexpr double worth_telling = 0.01, of_gains = 0.2;
 
 // `text` on the first rank where `here` is true, else nothing.
@@ -61,7 +61,7 @@ std::string fastest_point(const Body& body) {
 
 std::string at(double time) { return text_of("at t = ", time, " s "); }
 
-// True for laws that follow from rates alone: they have no energy, and J σ:ε/2 of the present stress is taken for it.
+// True for laws in rate form, which define no stored energy: the ledger then uses J σ:ε/2 of the present stress.
 bool is_of_rates(const MaterialBlock& block) {
   if (block.is_ordinary()) return false;
   return std::visit(
@@ -244,7 +244,7 @@ void Monitor::check_tools(double time, const Conditions& conditions, const std::
   });
 }
 
-// Tools that overlap from the start are meant to, e.g. two plates of one punch.
+// Tools that overlap at the start are allowed to, e.g. two plates of one punch.
 void Monitor::check_meeting(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools) {
   const std::vector<RigidTool> all = tools_of(conditions);
   overlapped_.resize(all.size() * all.size(), 0);
@@ -281,7 +281,7 @@ void Monitor::serialize_tools(Archive& archive, std::size_t tools) {
     archive.number("overlapped_" + std::to_string(pair), overlapped_[pair]);
 }
 
-// All ranks know it, so the first one prints it.
+// For texts that all ranks have: rank 0 prints them.
 void Monitor::warn(What what, const std::string& text) {
   tell_once(what, body_.domain.communicator.rank() == 0 ? text : "");
 }

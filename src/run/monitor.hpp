@@ -21,8 +21,8 @@ class Monitor {
   Monitor(const deck::Watch& limits, double duration, const Body& body, std::function<void(const std::string&)> tell)
       : limits_(limits), pause_(duration / looks), body_(body), tell_(std::move(tell)) {}
 
-  // Each check throws Error on all ranks if a limit is exceeded, or warns once if the deck says that the run continues;
-  // else it costs nothing.
+  // Collective. Each check throws Error on all ranks if a limit is exceeded, or warns once if the deck says that the
+  // run continues. Costly searches are made some two hundred times in a run (`looks`).
   void check_step(const CentralDifference& solver);    // after advance_velocity()
   void check_energy(const Ledger& ledger, bool last);  // `last`: of the run; it counts, however early it is
   // True if the ledger must be checked, also if nothing is written: the balance error is relative to the largest energy

@@ -49,7 +49,7 @@ std::string critical_time_step_line(double limit);
 // Warns of a fixed step above the critical one, `limit` at `time` (s); "" if it is not.
 std::string step_warning(const StepControl& control, double limit, double time);
 
-// Throws Error where steps are too short to be told apart from `time` (s): times would jump, or stand still.
+// Throws Error if steps are shorter than the resolution of numbers at `time` (s): times would jump, or stand still.
 void check_step_at(double time, const StepControl& control, double limit);
 
 // Collective. Tables of time by phase and of work by rank, points·steps per second, ns per bond, the final ledger.

@@ -72,8 +72,8 @@ struct Run::Parts {
   std::optional<Scene> scene;  // stays at this address, also when another scene replaces it
   std::optional<OutputWriters> writers;
   Balance balance;
-  std::optional<CentralDifference> steps;  // for explicit steps, else
-  std::optional<QuasiStatic> equilibria;
+  std::optional<CentralDifference> steps;  // in a run of explicit steps
+  std::optional<QuasiStatic> equilibria;   // in a run of equilibria; exactly one of both solvers exists
   std::optional<Monitor> monitor;
   std::optional<UserLibraries> libraries;
   std::optional<Checkpoint> checkpoint;
@@ -82,7 +82,7 @@ struct Run::Parts {
   HistoryRows* history = nullptr;
   bool begun = false, ended = false;
   bool last = false, ending = false, saving = false;  // at this time, as all ranks have agreed
-  bool warned = false;                                // of a fixed step
+  bool warned = false;                                // that the fixed step is above the critical one
 
   Parts(deck::Deck of_run, const Communicator& ranks)
       : deck(std::move(of_run)), communicator(ranks), early_end(began, deck.solver.wall_time), balance(deck) {}
@@ -135,7 +135,8 @@ void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Star
   scene = strut::set_up(deck, std::move(mesh), communicator);
   const std::string started = state ? state->restore(deck, *scene) : "";
   keep_expansion(has_expanded, scene->body);
-  // Advice is of the start, where these bodies are no longer, and were not as the mesh has them.
+  // Advice is about the state at the start of a run. A continued run that began with Start From is past that state, and
+  // its mesh does not show it.
   const bool is_past = continued && deck.start_from;
   const Advice told = is_past ? Advice{"advice was given at the start\n", scene->warnings} : advice(deck, *scene);
   say(communicator, describe_scene(*scene, told) + started);

@@ -12,8 +12,9 @@ namespace {
 
 constexpr int halvings = 40;  // bisections between two samples that distinguish a jump from a steep slope
 
-// The jump between `from` and `to`, by halving the interval where it changes most: a steep slope leaves no jump. Or
-// what it changes in the part of this length, s, where it changes most.
+// The jump of a function between `from` and `to`, by halving the interval toward its largest change: the change over a
+// steep slope vanishes, that of a jump stays. With a `length` (s): the change over the part of this length in which the
+// function changes most.
 Jump jump_between(const OfTime& of_time, double from, double to, double length = 0) {
   for (int n = 0; n < halvings && to - from > length; ++n) {
     const double middle = 0.5 * (from + to);

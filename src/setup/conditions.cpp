@@ -58,7 +58,7 @@ void set_reaches(RigidTool& tool, const Times& times, const Body& body) {
   tool.set_reaches(times.begin, body, BodyAt::present);
 }
 
-// For bodies that an Initial Displacement has moved: the mesh may lie in a tool.
+// For bodies that an Initial Displacement has moved out of a tool: at the positions of the mesh they may overlap it.
 void set_reaches_from_here(double t, Scene& scene) {
   scene.conditions.visit([&]<class Type>(Type& one) {
     if constexpr (std::is_same_v<Type, RigidTool>) one.set_reaches(t, scene.body, BodyAt::present);
@@ -135,7 +135,8 @@ void put_back(const SymmetryPlane& plane, const std::vector<int>& points, int pl
   }
 }
 
-// Held points start at the initial displacement that their condition prescribes, those of planes on their plane.
+// Moves held points to the displacement that their condition prescribes at the initial time, and points of symmetry
+// planes back onto their plane.
 void put_back_held(const deck::Deck& deck, const PointsOfConditions& points, const SharedPoints& shared, Body& body) {
   for (std::size_t c = 0; c < points.size(); ++c) {
     const auto* motion = std::get_if<PrescribedMotion>(&deck.conditions[c].kind);

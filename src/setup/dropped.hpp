@@ -24,7 +24,7 @@ PiecesOfPoints pieces_of_points(const Domain& domain);  // collective
 // Collective. Finds parts that are cut off in the remaining domain; `before`: pieces before points were dropped.
 void take_pieces(const Domain& left, const PiecesOfPoints& before, Dropped& dropped);
 
-// Collective. Throws Error on all ranks if 1 % of all points or more are dropped or cut off.
+// Collective. Throws Error on all ranks if more than 1 % of all points are dropped or cut off.
 void check_dropped(const Domain& left, const Dropped& dropped);
 
 // A line of the report, or nothing.

@@ -1,4 +1,4 @@
-// Points over all ranks that a message describes: their number, and the position of one of them.
+// The points that a message describes, over all ranks: their number, and the position of one of them.
 #pragma once
 
 #include <cstdint>

@@ -33,7 +33,7 @@ struct MigrationState {
   bool has_expanded = false;  // on any rank
 };
 
-// Points that were heated before this run's start are as large as then, whether anything heats them here or not.
+// Keeps the thermal strains that a checkpoint has (`has_expanded`), also if no condition of this deck heats a point.
 void keep_expansion(bool has_expanded, Body& body);
 
 // Collective.
@@ -42,13 +42,13 @@ MigrationState migration_state_of(const Scene& scene, PointCloud cloud);
 // Collective. The same scene on another partition, at its initial time, without its messages.
 Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicator& communicator);
 
-// Collective. Makes a scene whose equilibria are over ready for the explicit steps of the deck's second solver: the
-// body, as it is, with conditions and bonds to break from now on. `held`: the conditions of the equilibria, whose tools
-// keep their reaches; `contact`: theirs, whose touching distances stay; `fracture`: what they know of broken bonds.
-// Returns the deck of these steps; scene.warnings are theirs.
+// Collective. Prepares a scene whose equilibria are over for the explicit steps of the deck's second solver: keeps the
+// body in its present state, and makes the conditions and the fracture of these steps. `held`: the conditions of the
+// equilibria, whose tools keep their reaches; `contact`, `fracture`: of the equilibria, with their touching distances
+// and broken bonds. Returns the deck of the explicit steps; scene.warnings are those of the explicit steps.
 deck::Deck set_up_next(const deck::Deck& deck, const Conditions& held, contact::Contact contact,
                        std::optional<Fracture> fracture, Scene& scene);
-// The same without conditions, which the place of the body, as it is, may not suit.
+// The same without conditions, for a forecast: conditions might not fit the present positions of the body.
 deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, std::optional<Fracture> fracture, Scene& scene);
 
 }  // namespace strut

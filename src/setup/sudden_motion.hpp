@@ -12,8 +12,8 @@ namespace strut {
 // Beside an initial displacement of a body, the points that are held may stay where the mesh has them.
 enum class MayRest { no, yes };
 
-// Collective. Displacements at the initial time that points do not have then (0 of an undeformed body): with explicit
-// steps an error, the same on all ranks; else a warning.
+// Collective. Finds points whose displacement at the initial time is not the one that a condition prescribes for this
+// time (in an undeformed body it is 0). With explicit steps that is an error, the same on all ranks; else a warning.
 std::string check_initial_displacements(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
                                         deck::Problems& problems, MayRest may_rest = MayRest::no);
 

@@ -10,9 +10,9 @@
 
 namespace strut {
 
-// Two points coincide if they are nearer to each other than this, in units of the edge of a cube of the smaller one's
-// volume: most of the one's cell is then in the other's. Cells side by side are as near only if they are 30 times as
-// wide as thick.
+// Two points coincide if their distance is below this, in units of the edge of a cube with the volume of the smaller
+// point: their cells then overlap for the most part. Cells that lie side by side can be so near only if they are 30
+// times as wide as thick.
 constexpr double at_one_place = 0.1;
 
 // Collective, for a cloud that is spread over the ranks in any way. `allowed`: whether points of these two blocks may

@@ -62,7 +62,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
 Vector stretch_at(const std::vector<Period>& periods, double t);
 
 // Collective. The images of the bodies by periodic sides or symmetry planes, as far as they may be within `reach` (m).
-// Throws Error on all ranks if there are too many, of bodies that are thin beside it.
+// Throws Error on all ranks if mirrors make too many, of bodies that are thin beside it.
 Images images_of(const Domain& domain, double reach);
 
 // The owned points as they were read.

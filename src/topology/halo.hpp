@@ -40,9 +40,10 @@ class Halo {
   Halo(Halo&&) noexcept;
   Halo& operator=(Halo&&) noexcept;
 
-  // Exchanges values of owned points and ghosts, of any trivially copyable type. Sends those of the owned points that
-  // other ranks need. One exchange at a time; finish() with the same values waits and fills the ghosts. An image gets
-  // reflect(by, value) of its original's value, or a number unchanged.
+  // Exchanges values of owned points and ghosts, of any type that owns no memory: they are copied as bytes. start()
+  // sends the values of the owned points that other ranks need; finish() with the same values waits and fills the
+  // ghosts. One exchange at a time. The value of an image is that of its original after reflect(by, value); plain
+  // numbers are not changed.
   template <class Value>
   void start(const std::vector<Value>& values) const {
     static_assert(std::is_trivially_destructible_v<Value>, "it owns what is elsewhere");

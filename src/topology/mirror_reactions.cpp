@@ -42,8 +42,9 @@ Vector share(const Tensor& of_normals, const Vector& force) {
   return result;
 }
 
-// Adds up the forces of the planes of a body: a plane that has a parallel one gets the force of its images; the other
-// planes share the rest of the force on the body, along their normals, with the least sum of squares.
+// Adds up the forces of the planes of a body. A plane that has a parallel one gets the force of the images behind it.
+// The rest of the force on the body is distributed over the other planes, along their normals, with the least sum of
+// squares.
 void add(const Domain& domain, int body, const MirroredForces& sums, std::vector<Vector>& forces) {
   const std::vector<Mirror>& mirrors = domain.mirrors;
   Vector rest = sums.on_body(body);

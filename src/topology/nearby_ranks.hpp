@@ -56,8 +56,7 @@ std::vector<Vector> places_of(const std::vector<Record>& records) {
   return places;
 }
 
-// Collective. Adds to this rank's records those of other ranks within `reach` (m) of the box in which this rank looks
-// for them.
+// Collective. Adds to this rank's records those of other ranks within `reach` (m) of `box`.
 template <class Record>
 void add_nearby(std::vector<Record>& records, const Eigen::AlignedBox3d& box, double reach,
                 const Communicator& communicator) {

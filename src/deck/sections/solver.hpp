@@ -18,7 +18,7 @@ struct QuasiStatic {
 struct Solver {
   double initial_time{}, final_time = 0;    // s
   std::optional<double> wall_time;          // s, of the computer, after which the run ends itself; nullopt: no limit
-  bool verbose{};                           // prints each iteration of an equilibrium, or how ranks share the work
+  bool verbose{};                           // prints each iteration of an equilibrium, or the balance of the ranks
   std::optional<QuasiStatic> quasi_static;  // else explicit steps:
   std::optional<double> fixed_dt;           // s; else from the critical time step
   double safety_factor{};
@@ -26,7 +26,7 @@ struct Solver {
   std::optional<double> scaled_dt;  // s; the step that mass scaling aims at
   double most_added_mass{};         // by mass scaling, relative to the whole mass
   bool keeps_velocities{};          // of a second solver: of the last load step before it; else bodies begin at rest
-  double rebalance{};               // largest work of a rank over the mean: above it the partition is made anew
+  double rebalance{};               // largest work of a rank over the mean; above it points are partitioned again
 
   double duration() const { return final_time - initial_time; }
 };

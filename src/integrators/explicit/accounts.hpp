@@ -19,8 +19,9 @@ class EnergyAccount {
   // Collective. Sets the smallest scale of the balance error: the energy that round-off makes. Work counts from here.
   void start(const Body& body);
 
-  // Goes on from the ledger of a solver before this one, at the same time; on one rank, with its contact. The others
-  // take over what their contact stores.
+  // Continues the ledger of the solver before this one, at the same time. Its work is counted on one rank
+  // (`on_this_rank`), because it is a sum over all ranks; each rank counts the energy that its own contact stores
+  // (`in_contact`, J).
   void go_on_from(const Ledger& before, bool on_this_rank, double in_contact);
 
   // Impulses at one time: their work is added to at_impulse(), then divided between the steps before and after.
@@ -33,11 +34,11 @@ class EnergyAccount {
   // Collective; at the time of the impulses. `dt`: length of the step after it, s.
   Ledger ledger(const Body& body, const Conditions& conditions, const contact::Contact& contact, const MidSteps& steps,
                 double time, double dt);
-  // Counts the energy of the body at the first ledger as put in before. `half_step`: J, counted as put in from the
-  // second ledger on, because a body that is strained at the start begins with half a step.
-  bool has_begun() const { return has_begun_; }
+  bool has_begun() const { return has_begun_; }  // true after begin_with()
   // Work counts from here, without the part of this impulse that belongs to the step before.
   void begin_at_this_impulse() { done_ = done_ + impulse_.before * -1; }
+  // Counts the energy of the body at the first ledger as put in before. `half_step`: J, counted as put in from the
+  // second ledger on, because a body that is strained at the start begins with half a step.
   void begin_with(const Ledger& ledger, double half_step) {
     initial_ += ledger.gained, half_step_ = half_step, has_begun_ = true;
   }

@@ -17,7 +17,7 @@ class CentralDifference {
   // Collective. Computes the initial forces and time step. Throws Error if the initial state already fails.
   CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
                     double initial_time, std::optional<Fracture> fracture = {});
-  // For a restart: computes nothing; serialize() must restore the state before any other call.
+  // Collective. For a restart: computes no forces; serialize() must restore the state before any other call.
   struct ToBeRestored {};
   CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control, ToBeRestored,
                     std::optional<Fracture> fracture = {});

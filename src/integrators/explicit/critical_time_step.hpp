@@ -11,8 +11,8 @@ namespace strut {
 class CriticalTimeStep {
  public:
   // Collective. 2/ω_max in s, the same on any number of ranks to the last bit; infinity for a body without stiffness.
-  // Later calls start from the mode found last, which makes them cheaper. Overwrites body.force_states, which are
-  // needed only between stresses and forces.
+  // Later calls start from the mode found last, which makes them cheaper. Overwrites body.force_states: where bonds may
+  // break, the next step needs them, and the caller keeps a copy (StepLength::estimate).
   double estimate(Body& body);
 
   void serialize(Archive& archive, const Body& body);  // call it at the group of all owned points

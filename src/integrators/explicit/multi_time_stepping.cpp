@@ -17,16 +17,17 @@ void scale(QuadraticState& state, double factor) {
   for (std::size_t n = 0; n < sizeof(QuadraticState) / sizeof(double); ++n) numbers[n] *= factor;
 }
 
-// The step after a choice of levels as a part of both steps around it, foretold by the frequency bounds: the critical
-// time step is estimated later. No step comes before the first.
+// Length of the step after a choice of levels over the sum of the steps before and after it. It is predicted from the
+// frequency bounds, because the critical time step is estimated only later. 1 if no step came before.
 double part_after(const PresentStep& present, double bound, bool anew) {
   if (present.is_first) return 1;
   const double ratio = anew && present.bound > 0 && bound > 0 ? present.bound / bound : 1;
   return ratio / (1 + ratio);
 }
 
-// Half of the interval before a change of levels and half of the one after give the impulse at it: that of a point
-// lasts for its share of each. `after`: the interval after as a part of both.
+// At a change of levels, the impulse of a point's force lasts for half of the point's own step before the change and
+// half of its own step after it. Scales the forces of points whose own step changes accordingly. `after`: length of the
+// whole step after the change over the sum of both whole steps.
 void spread_impulses(Body& body, const std::vector<std::uint8_t>& before, double after) {
   for_each_point(0, body.owned(), [&](int i) {
     const double old_share = before.empty() ? 1 : power_of_two(-before[i]), share = body.share(i);
@@ -196,7 +197,8 @@ StepReport MultiTimeStepping::forces(Body& body, int level, double dt, double ti
     }
   }
   for (const int i : now.moved) {
-    // Its own state acts at other times, or is zero; force_density still holds the last whole step with its loads.
+    // The force of the point's own state acts at other times, or is zero. force_density still has the force of the last
+    // whole step, with loads, and must be cleared.
     if (body.time_levels[i] < level || moves_rigidly(body, i)) body.force_density[i].setZero();
   }
   for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) { add_residuals<S>(kind, body, now, level); });
@@ -218,7 +220,7 @@ StepReport MultiTimeStepping::forces(Body& body, int level, double dt, double ti
   return report;
 }
 
-// Adds the springs on both ends' gradients, for bonds between points that are due.
+// Adds the springs on both ends' gradients to the points that are stressed at this level.
 template <class S>
 void MultiTimeStepping::add_residuals(std::size_t kind, Body& body, Level& now, int level) const {
   ForceStates& states = body.force_states;

@@ -26,7 +26,8 @@ class MultiTimeStepping {
   // Collective. The same for no substeps at all, from now on.
   double drop(Body& body, const PresentStep& present);
 
-  // Marks owned points too close to points with several substeps for contact to push them. Empty: no point is.
+  // Marks of owned points that contact must not push, because points with several substeps are too close. Empty: there
+  // are no such points.
   const std::vector<std::uint8_t>& exposed() const { return exposed_; }
 
   // Result of the last choice: whether the step must be chosen anew, and for which frequency bound.
@@ -49,8 +50,9 @@ class MultiTimeStepping {
   // Collective. Saves or restores the choice, after serialize() of the body left the archive at all owned points.
   void serialize(Archive& archive, Body& body);
 
-  // Collective. At a time of this level, `dt` (s) after the last: updates the stresses of the points that are due, and
-  // sets body.force_density of the moved points to the force of these stresses, for an impulse over dt.
+  // Collective. At a time of this level, `dt` (s) after the last one: updates the stresses of the points of this level
+  // and above, and sets body.force_density of the moved points to the force of these stresses, for an impulse over dt.
+  // `time`: now, s.
   StepReport forces(Body& body, int level, double dt, double time);
 
  private:
@@ -58,7 +60,7 @@ class MultiTimeStepping {
 
   // The points and lists for the times of one level.
   struct Level {
-    std::vector<SelectedPoints> stressed;  // in each block: the points that are due
+    std::vector<SelectedPoints> stressed;  // of each block: points of this level and above
     std::vector<int> moved;
     ClusterLists sources;  // of the moved points: the stressed points in their families
     // For points on lattices: Σ ω V ξ by differences of positions, as in the lists of far ends, minus that by whole

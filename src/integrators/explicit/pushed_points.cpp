@@ -4,7 +4,8 @@
 
 namespace strut {
 
-// A tool meets points between steps, too, by these velocities, before the levels of the next step but one are chosen.
+// Levels are chosen one step ahead: a point counts as pushed if a free tool would reach it, at these velocities, within
+// the next `steps` steps.
 std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& conditions, const contact::Contact& contact,
                                         std::span<const Vector> velocities, double t, double dt) {
   // Margin for changes meanwhile, in steps and spacings; a gap of a round number must not depend on round-off.

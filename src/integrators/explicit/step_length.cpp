@@ -15,9 +15,9 @@ namespace {
 constexpr double renewal_growth = 1.1;
 constexpr int renewal_steps = 1000;
 
-// Breaks may raise ω without raising the largest frequency bound: of points beside others that have lost bonds. The
-// estimate after breaks, which costs some four steps, is renewed at once, but once in this number of steps in the mean:
-// each estimate uses up so many of the steps that are allowed for, of which a run without breaks saves this many.
+// Breaks may raise ω of points beside others that have lost bonds without raising the largest frequency bound, so the
+// estimate is renewed after breaks. It costs some four steps and is made at most once in steps_a_renewal steps on
+// average: each step earns 1 of an allowance, up to most_allowed, and each estimate takes steps_a_renewal from it.
 constexpr int steps_a_renewal = 100, most_allowed = 10 * steps_a_renewal;
 
 constexpr double round_off = 1e-6;  // of a step: times are sums over up to millions of steps

@@ -68,11 +68,11 @@ class StepLength {
   double dt_ = 0, previous_dt_ = 0, next_time_ = 0;  // s
   bool none_follows_ = false;
   double least_chosen_ = std::numeric_limits<double>::infinity();  // s, since the last estimate
-  double bound_of_step_ = 0;                                       // 1/s, the bound for which levels were chosen, and
-  double step_of_bound_ = 0;                                       // s, the step that resulted
+  double bound_of_step_ = 0;                                       // 1/s, frequency bound for which levels were chosen
+  double step_of_bound_ = 0;                                       // s, length of the step that followed this choice
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0;
-  int allowance_ = 0;  // of steps, for estimates after breaks
+  int allowance_ = 0;  // steps made minus steps_a_renewal for each estimate: below 0, breaks cause no estimate
   bool levels_due_ = true, estimate_due_ = true, levels_anew_ = false;
   bool bonds_broke_ = false;  // since the last estimate
 };

@@ -39,8 +39,8 @@ constexpr double most_turn = 0.6;
 // Costs are not timed in the run, because the run would then differ on another machine or when repeated; these
 // constants are measured (docs/decisions.md, Cost of subcycling).
 //
-// Cost of a substep of a point, with its part of the points that it moves, relative to a whole step of that point: more
-// than measured on one rank, because each substep has exchanges of its own.
+// Cost of a substep of a point, including the neighbors that it moves, relative to a whole step of that point. It is
+// larger than measured on one rank, because each substep has its own exchanges.
 constexpr double cost_of_substep = 1.5;
 
 constexpr double worth_while = 0.75;    // relative to the cost of a run without levels
@@ -169,9 +169,10 @@ void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
   }
 }
 
-// In each body, all points that move damped points get one bound, and so one level: between the impulses of coarser
-// steps a damper reduces the velocity, and an impulse does work by the mean velocity before and after it, which then
-// exceeds the mean over its step. The bound is the largest of the points whose level reaches there.
+// In each body, all points whose stress moves damped points get the same bound, and so the same level. Else a damper
+// would reduce the velocity between the impulses of points with longer steps: an impulse does work by the mean of the
+// velocities before and after it, which would then exceed the mean velocity over its step. The common bound is the
+// largest bound of the points near enough to raise the level there.
 void even_out(const Body& body, std::vector<std::uint8_t> damped, FrequencyBounds& bounds) {
   std::vector<std::uint8_t> reaching = damped;
   spread(body, 1, damped);

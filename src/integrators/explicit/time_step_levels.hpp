@@ -9,8 +9,8 @@
 namespace strut {
 
 struct PresentStep {
-  double bound;  // 1/s, the frequency bound that it was chosen for; 0: none yet
-  double slack;  // factor by which the bound may grow
+  double bound;  // 1/s, the frequency bound for which this step was chosen; 0: none yet
+  double slack;  // factor by which the bound may grow before the step must be shorter
   bool is_first = false;
 };
 

@@ -4,7 +4,8 @@ namespace strut {
 
 namespace {
 
-// Part of the length of a direction that is left by the other held directions of its point; less means dependent.
+// Least length of the part of a held direction that is orthogonal to the other held directions of its point. Below it
+// the direction depends on them and adds nothing.
 constexpr double smallest_part = 1e-8;
 
 }  // namespace

@@ -22,7 +22,8 @@ class Constraints {
   // Adds the forces by which the holding conditions balance `forces` (N), by condition.
   void add_reactions(const Field& forces, std::vector<Vector>& by_condition) const;
 
-  // The remaining displacement of each held point in the step (m); 0 along free directions.
+  // Displacements (m) from the present positions of the points to their targets along held directions; 0 along free
+  // ones.
   Field way_left(const Body& body) const;
 
  private:

@@ -53,7 +53,8 @@ double forces_at_rest(Body& body) {
   return std::sqrt(body.domain.communicator.sum(sum));
 }
 
-// N². Forces through periodic sides are loads as if all points shared them: fewer do, which makes no imbalance smaller.
+// N². Forces through periodic sides count as loads that are spread over all points. Fewer points bear them, so this is
+// a lower bound of the scale, and never hides an imbalance.
 double square_of_side_forces(const Body& body, std::vector<Vector> forces) {
   if (body.domain.periods.empty()) return 0;
   const Communicator& ranks = body.domain.communicator;

@@ -28,8 +28,8 @@ class Equilibrium {
   // Collective. Computes the forces of the undeformed state. Throws Error if a condition needs inertia.
   Equilibrium(Body& body, Conditions conditions, contact::Contact contact, std::optional<Fracture> fracture = {});
 
-  // Collective. For a body that begins strained: the forces that hold it as it is fade over the first load step, and
-  // their work counts as that of loads.
+  // Collective. For a body that begins strained, at the time t (s): the forces that would hold it in this state fade
+  // over the first load step, and their work counts as that of loads.
   void begin_strained(double t);
 
   // Collective. Begins a load step from t over dt (s), at the committed positions. Throws Error if a value of a
@@ -74,7 +74,7 @@ class Equilibrium {
   void serialize_search(Archive& archive);
 
   void commit();   // collective; the next step begins at the last trial
-  void go_back();  // to the committed state
+  void go_back();  // collective; to the committed state
 
   Body& body() { return body_; }
   const Constraints& constraints() const { return *constraints_; }
@@ -88,8 +88,8 @@ class Equilibrium {
   double external_work() const;
   double tool_work() const { return tools_.work(body_); }
   double friction_work() const;  // between bodies
-  // Collective. Upper bound of the work in this load step of the forces that are no forces, J: of round-off, and those
-  // that a search with this tolerance leaves in a body that expands.
+  // Collective. Upper bound of the work of errors in this load step, J: of forces by round-off, and of the residual
+  // forces that a search with this tolerance leaves in a body that expands.
   double work_of_errors(double tolerance) const;
   // Collective. Reactions of the last trial for this number of conditions of the deck, N.
   Reactions reactions(int conditions) const;
@@ -124,7 +124,7 @@ class Equilibrium {
   Field forces_before_;                         // N, of the committed state
   Field outer_, outer_before_;                  // loads and reactions, N; at the start of the step
   Field left_;                                  // N, of bonds that broke at its start; empty without
-  Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors on this rank's points
+  Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors or periods on this rank's points
   std::vector<Vector> looked_at_;               // positions at the last evaluation of contact, m
   std::vector<PointTangent> tangents_;
   std::vector<Site> directions_;

@@ -10,7 +10,7 @@ namespace {
 constexpr double enough = 0.5;      // fraction of the power at the start, of either sign, that ends the search
 constexpr int most_places = 12;     // evaluations at most; one costs a hundredth of the step
 constexpr double margin = 0.02;     // fraction of the remaining interval: least distance from its ends
-constexpr double of_failure = 1e3;  // power assumed if a point inverts, uphill, times that at the start
+constexpr double of_failure = 1e3;  // if a point inverts, the power counts as minus this multiple of that at the start
 
 // The interval of the step in which the power changes its sign.
 struct Bracket {

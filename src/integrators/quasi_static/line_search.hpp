@@ -7,7 +7,7 @@ namespace strut {
 
 void move_by(Body& body, double factor, const Field& step);
 
-// Collective. The work of the residual forces along another step as long as this one, J.
+// Collective. The power of the search: work of the present residual forces over the displacement `step`, J.
 double power_along(const Equilibrium& equilibrium, const Body& body, const Field& step);
 
 struct Stop {
@@ -15,9 +15,10 @@ struct Stop {
   Imbalance left;
 };
 
-// Collective. Starts at the end of the whole step, with the imbalance `left`; `power`: at the start, positive. Goes to
-// where the power, minus `drag` · fraction, has fallen to half: beyond a kink, where a point begins to touch or to
-// flow, the norm of the forces is no measure, because stiff springs dominate it.
+// Collective. Call it at the end of the whole step, with the imbalance `left` there; `power`: at the start of the step,
+// positive. Moves to the fraction of the step at which the power minus `drag` · fraction is at most half of `power` in
+// size. The norm of the forces is no measure beyond a kink, where a point begins to touch or to flow: stiff springs
+// dominate it.
 Stop search_downhill(Equilibrium& equilibrium, const Field& step, double power, double drag, const Imbalance& left);
 
 }  // namespace strut

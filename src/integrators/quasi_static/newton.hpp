@@ -41,7 +41,7 @@ class Newton {
   Equilibrium& equilibrium_;
   const Observer& observer_;
   Krylov krylov_;
-  std::optional<TangentFactor> factor_;  // made for the first system
+  std::optional<TangentFactor> factor_;  // made once multigrid takes too many products (wants_factors_)
   double spring_ = 1;                    // N/m, for held directions in the linear systems: as stiff as others
   int products_when_new_ = 0;
   bool preconditioner_due_ = true, wants_factors_ = false, is_factorized_ = false;

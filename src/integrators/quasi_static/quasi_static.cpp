@@ -219,8 +219,9 @@ class Uninterrupted {
 
 }  // namespace
 
-// Bonds beyond their limit break at once, while conditions rest; the body goes to its next equilibrium, in which others
-// may be beyond theirs. Returns how many broke. It is not interrupted: between its equilibria a run could not go on.
+// Breaks all bonds that are beyond their limit at once, while conditions rest, and searches for the next equilibrium;
+// repeats this as long as bonds are beyond their limit there. Returns the number of broken bonds. A stop request waits:
+// a checkpoint between these equilibria could not be continued.
 std::int64_t QuasiStatic::settle(EquilibriumSearch& search) {
   const Uninterrupted until_it_rests(observer_);
   std::int64_t all = 0;

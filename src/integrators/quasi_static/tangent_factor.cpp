@@ -77,7 +77,7 @@ std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, 
   return ends;
 }
 
-// Adds the block at (row, column) to the last row; several images of a point share one column.
+// Adds a block to the last row at this column; all images of a point have the column of their original.
 void add(std::int64_t column, const Tensor& block, BlockRows& rows) {
   const auto begin = rows.columns.begin() + static_cast<std::ptrdiff_t>(rows.start.back());
   const auto same = std::find(begin, rows.columns.end(), column);
@@ -176,7 +176,8 @@ class Originals {
   std::vector<Original> of_ghosts_;
 };
 
-// The owned points that share a family with each point, itself first. Empty if there are too many.
+// For each owned point, itself first, then all owned points that are in one family with it. Empty if there are too
+// many.
 std::vector<std::vector<int>> coupled_points(const Body& body, const Originals& originals) {
   std::vector<std::vector<int>> coupled(body.owned());
   std::vector<int> seen_by(body.owned(), -1);

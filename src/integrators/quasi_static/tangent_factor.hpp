@@ -31,7 +31,7 @@ class TangentFactor {
   // True if it is worthwhile on all ranks: every block has a stiffness (mechanics/point_stiffness.hpp), and the
   // factorization takes few enough operations.
   bool is_worthwhile() const { return worthwhile_; }
-  // Number of products of the tangent with a field that take about as long as the factorization, on all ranks.
+  // Number of products of the tangent with a field that take as long as the factorization on the slowest rank.
   double products_worth() const { return products_worth_; }
   double bytes() const;  // on this rank, if there are factors
 

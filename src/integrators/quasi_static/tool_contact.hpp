@@ -29,9 +29,9 @@ class ToolContact {
   void add_stiffness(const Field& field, Field& result) const;
   void add_springs(std::vector<Tensor>& springs) const;
 
-  // Distance of the last forces on this rank's points from exact contact, relative to the largest pressure on any rank
-  // (N); another round is due above 1.
-  double largest_pressure() const;
+  double largest_pressure() const;  // N, of the last forces on this rank's points
+  // Error of contact at the last forces on this rank's points, over the allowed one: above 1 another round of the
+  // multipliers is needed. `largest_pressure`: over all ranks, N.
   double violation(double largest_pressure) const;
   // True if other points of this rank touch than at the last call.
   bool has_changed();

@@ -13,10 +13,10 @@ struct HeldPoint {
   Vector force_before, force_after;  // on it, N
 };
 
-// Collective. What the forces on these points of all ranks do beyond ½ (f₀ + f₁)·Δu, J on this rank, if the points move
-// nearly as a rigid body: on arcs, with forces that turn with them. Along chords, the changes Δf of the reactions of a
-// clamped end do a work of some ¼ θ² Δf l in a turn by θ, which may be more than a little strained body stores. Zero
-// for other motions.
+// Collective. Correction of the work ½ (f₀ + f₁)·Δu of the forces on these points (of all ranks), J on this rank, for
+// points that turn nearly as a rigid body: they move on arcs, and the forces turn with them. Without it, the work of
+// the reactions of a clamped end that turns by θ is wrong by some ¼ θ² Δf l (Δf: their change, l: a length of the end),
+// which may be more than a slightly strained body stores. Zero for other motions.
 double work_beyond_chords(const std::vector<HeldPoint>& points, const Communicator& ranks);
 
 }  // namespace strut

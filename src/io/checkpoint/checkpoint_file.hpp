@@ -22,7 +22,7 @@ void write_checkpoint(const std::filesystem::path& file, const Communicator& com
                       const std::string& deck);
 
 // Fills a snapshot of the same deck, saved by any number of ranks: each rank gets the values of its points and its own
-// shares (per-rank sums); if the number of ranks differs, rank 0 gets the total of the shares. If the file is missing
+// per-rank sums; if the number of ranks differs, rank 0 gets the total of these sums. If the file is missing
 // or damaged, the previous one is read if it is good; returns the reason, on rank 0. Throws Error on all ranks if both
 // are missing or damaged, of another version, of other points, or lack something that the snapshot has.
 std::string read_checkpoint(const std::filesystem::path& file, const Communicator& communicator, Snapshot& snapshot);
@@ -30,9 +30,9 @@ std::string read_checkpoint(const std::filesystem::path& file, const Communicato
 // On this rank's disk: true if the file, or the previous one, exists.
 bool checkpoint_is_there(const std::filesystem::path& file);
 
-// Data besides the snapshot: the file that is read, the newest or, if that is damaged, the previous one, whose reason
-// is the note, on rank 0; the text of the deck, and the time, s. All of the file is checked. Throws Error on all ranks
-// like read_checkpoint.
+// Data of a checkpoint besides the snapshot. `file`: the file that is read, which is the newest one or, if that is
+// damaged, the previous one; `note`: the reason for the latter, on rank 0; `deck`: its text; `time`: s. The whole file
+// is checked. Throws Error on all ranks like read_checkpoint.
 struct CheckpointFacts {
   std::filesystem::path file;
   std::string note, deck;
@@ -41,10 +41,10 @@ struct CheckpointFacts {
 };
 CheckpointFacts facts_of_checkpoint(const std::filesystem::path& file, const Communicator& communicator);
 
-// Fills what that file, of a run of another deck, has of the numbers, shares and columns whose names `takes` accepts,
-// as above; the others keep their values. Returns those that it should take and the file does not have, on all ranks,
-// columns with their group. Throws Error on all ranks if the file is not the one of these facts any more, if it is
-// damaged, or if the points of a group are others.
+// Fills the numbers, per-rank sums and columns of a snapshot whose names `takes` accepts from the file of these facts,
+// which may be of a run of another deck; the others keep their values. Returns the accepted names that the file lacks,
+// on all ranks, columns with their group. Throws Error on all ranks if the file has been replaced since, if it is
+// damaged, or if a group has other points.
 using Takes = std::function<bool(const std::string& name)>;
 std::vector<std::string> read_checkpoint_parts(const CheckpointFacts& facts, const Communicator& communicator,
                                                const Takes& takes, Snapshot& snapshot);

@@ -14,8 +14,9 @@ namespace strut {
 // positions; their stress stays. Returns true if flow began.
 bool begin_flow(Body& body, MaterialBlock& block, int k);
 
-// Does so for all owned cells and returns true if any cell began to flow. Ghosts must be at their present positions.
-// Time steps call the function above themselves; an equilibrium search calls this one when it accepts a load step.
+// The same for all owned cells; returns true if any cell began to flow. Ghosts must be at their present positions. The
+// stress update of an explicit step calls the function above for each cell; an equilibrium calls this one when it
+// commits a load step.
 bool begin_flow(Body& body);
 
 // Refits the cells that have flowed, after a body has been restored from a checkpoint.

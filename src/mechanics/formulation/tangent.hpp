@@ -8,7 +8,8 @@
 
 namespace strut {
 
-// A copy of everything in a body that a step changes.
+// A copy of the state from which the trials of a load step start: positions, F, R, stress, states of the laws,
+// viscosity, thermal expansion and fracture energy. Forces, force states and ordinary points are computed anew.
 class Committed {
  public:
   explicit Committed(const Body& body) { take(body); }

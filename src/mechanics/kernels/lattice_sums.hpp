@@ -194,7 +194,7 @@ class LatticeSums {
   void gather_residuals_of(std::size_t kind, const Displacements& u, const std::vector<GradientState>& gradients,
                            const Take& take);
 
-  // Sums by handing over.
+  // Sums by scattering.
   template <class Sweep, class Fill>
   void sweep(const Fill& fill, const Take& take);
 

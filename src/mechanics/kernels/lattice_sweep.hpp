@@ -1,5 +1,5 @@
-// Inside the sums over lattices: code that those that gather (lattice_gather.cpp) and those that hand over
-// (lattice_scatter.cpp) share.
+// Inside the sums over lattices: code for the sums that gather (lattice_gather.cpp) and for those that scatter
+// (lattice_scatter.cpp).
 #pragma once
 
 #include <algorithm>

@@ -12,8 +12,8 @@
 namespace strut {
 
 // SIMD: points that kernels process side by side, one per lane, with one list for all of them: the members of any of
-// their families, with a mask of whose. Points of a cluster lie close together, so that most bonds share their far
-// ends, each of which is read once.
+// their families, each with a mask of the points whose families it is in. Points of a cluster lie close together, so
+// that most members are in several of these families, and each is read once.
 struct Cluster {
   static constexpr int width = small::lane_count;
 

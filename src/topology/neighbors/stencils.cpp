@@ -23,8 +23,9 @@ Stencils stencils_of(const std::vector<LatticeFrame>& frames, const std::vector<
 
 namespace {
 
-// Time of a step for the bonds of a point, ns, measured with tests/bench. The cost of a list is that of its entries,
-// which the points of a cluster share. `pencils`: pencils of the lattice per point.
+// Time of a step for the bonds of a point, ns, measured with tests/bench. A list costs less than in proportion to the
+// number of neighbors, because a cluster has one list for all of its points. `pencils`: pencils of the lattice per
+// point.
 double cost_of_list(double neighbors) { return 80 + 3.2 * std::pow(neighbors, 0.84); }
 double cost_of_stencil(double rows, double pencils) { return 35 + (280 + 8 * rows) * pencils; }
 

@@ -44,8 +44,8 @@ class Visibility {
   MeshedPoints points_;
   std::vector<std::size_t> start_{0};
   std::vector<int> touching_;  // touching points of each point, ascending, without itself
-  // One per point: twice the number of the present search if the point is in its family, one more if it has been joined
-  // to i, too.
+  // One per point, with two meanings in one number: 2 now_ if the point is in the family of the present search, 2 now_
+  // + 1 if a chain of touching points also connects it with i.
   std::vector<std::int64_t> mark_;
   std::vector<std::int64_t> seen_;  // number of the last flood that reached the point
   std::int64_t now_ = 0, flood_ = 0;
