@@ -108,9 +108,11 @@ Trajectory along(const Tensor& axes, const Body& body, int block, const Trajecto
   Trajectory seen;
   for (const int i : body.blocks[block].points) extend(seen, body, i, axes);
   for (Eigen::AlignedBox3d* box : {&seen.places, &seen.cells}) *box = common_box(*box, body.domain.communicator);
-  for (int k = 0; k < 8; ++k)
-    seen.velocities.extend(axes.transpose() *
-                           in_space.velocities.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+  for (int k = 0; k < 8; ++k) {
+    const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(k);
+    seen.velocities.extend(axes.transpose() * in_space.velocities.corner(corner));
+    seen.ways.extend(axes.transpose() * in_space.ways.corner(corner));
+  }
   return seen;
 }
 

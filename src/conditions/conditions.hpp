@@ -19,6 +19,7 @@ class Conditions {
   void add(Condition condition);
   // Checks a value that others evaluate, too (first_not_finite).
   void watch(const Function& value);
+  bool has_friction() const { return has_friction_; }  // of a rigid tool
 
   // Visits the conditions in the order in which they act.
   template <class Visit>
@@ -36,6 +37,7 @@ class Conditions {
 
  private:
   std::vector<Condition> in_order_;
+  bool has_friction_ = false;
   std::vector<Function> expressions_;
 };
 

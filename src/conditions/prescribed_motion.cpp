@@ -38,14 +38,13 @@ void for_each_component(const PrescribedMotion& motion, const auto& act) {
 }  // namespace
 
 void PrescribedMotion::change_velocities(VelocityUpdate& update) const {
-  if (!points.empty()) update.held.resize(update.body.owned());
   for_each_component(*this, [&](int c, int i) {
     double& v = update.body.velocity[i][c];
     const double imposed = imposed_velocity(*this, c, i, update);
     const double change = imposed - v;
     v = imposed;
     update.record(i, change * Vector::Unit(c));
-    update.held[i] |= 1 << c;
+    if (!update.held.empty()) update.held[i] |= 1 << c;
   });
 }
 

@@ -143,9 +143,9 @@ def motion_of(deck, axis, times):
         moves[name] = cumulative_trapezoid(way, times, initial=0) if kind == "Prescribed Velocity" else np.array(way)
         if kind == "Prescribed Displacement":
             moves[name] = moves[name] - taken_off(deck, value)
-        elif deck.section("Start From") is not None:
+        elif kind == "Prescribed Velocity" and deck.section("Start From") is not None:
             begins[name] = " since the start of this run (the strain before it, by Start From, is not counted)"
-        elif kind.startswith("Rigid "):
+        elif kind.startswith("Rigid ") and deck.section("Start From") is None:
             moves[name], begins[name] = from_the_touch(moves[name], apart_at_first(deck, keys, axis, moves[name][0]))
     return moves, begins
 

@@ -17,10 +17,10 @@ class Merging {
   // `links`: for each piece, those that it can be merged into.
   Merging(Pieces& pieces, std::vector<std::set<int>> links, const VoxelGrid& grid);
 
+  using Allowed = std::function<bool(int)>;
   // Merges a piece into the one of its links that is `allowed`, gives the most compact result, and is no longer than
   // `longest` cells. The result is at the position of that link or, if only that keeps its neighbors, of the piece.
   // Returns the piece that contains both, or -1.
-  using Allowed = std::function<bool(int)>;
   int merge(
       int piece, double longest = INFINITY, const Allowed& allowed = [](int) { return true; });
   void drop(int piece) { alive_[piece] = false; }

@@ -273,7 +273,7 @@ class Converter {
       body.three_cornered = choice<int>(key, {"round", "three-cornered"}, 0) == 1;
     }
     if (key == "periodic") take_axes(entry, body);
-    if (key == "lattice") body.lattice = lattice_names()[choice<int>(key, lattice_names(), 0)];
+    if (key == "lattice") choice<int>(key, lattice_names(), 0), body.lattice = entry.value;
     if (key == "count") take_count(entry, body);
   }
 

@@ -17,8 +17,11 @@ class Sample:
             fail(f"{mesh}: expected hexahedra or tetrahedra, which tell the faces of a box; it has none, also others, or is damaged")
         edges, self.places, self.halves = (np.concatenate(found) for found in zip(*parts))
         self.edge, (self.low, self.high) = edges.min(axis=0), box
-        with opened(mesh) as file:
-            self.numbers = file["elem_num_map"][:] if "elem_num_map" in file.variables else 1 + np.arange(len(edges))
+        try:
+            with opened(mesh) as file:
+                self.numbers = file["elem_num_map"][:] if "elem_num_map" in file.variables else 1 + np.arange(len(edges))
+        except (OSError, IndexError, KeyError, AttributeError) as error:
+            fail(f"{mesh} is damaged: {error}")
 
     def held(self, face, layers):
         """The numbers of the points in this many layers at a face. In the innermost layer, only points without another

@@ -66,17 +66,12 @@ class Case:
         for name, text in self.texts.items():
             with open(os.path.join(self.folder, name), "w") as file:
                 file.write(text)
-        for name in [*self.links, *([self.mesh] if self.mesh else []), *self.written()]:
+        for name in [*self.links, *([self.mesh] if self.mesh else []), *inputs.written_by(self.source)]:
             os.makedirs(os.path.join(self.folder, os.path.dirname(name)), exist_ok=True)
         for name, file in self.links.items():
             os.symlink(file, os.path.join(self.folder, name))
         self.put_state(over=False)
         return False
-
-    def written(self):
-        """The files that a run writes into its folder."""
-        keys = (("Output", "Output Filename"), ("History", "Filename"), ("Restart", "Filename"))
-        return [name for name in (self.source.get(*key) for key in keys) if name and not os.path.isabs(name)]
 
     def start(self, ranks):
         goes_on = self.prepare()

@@ -45,6 +45,13 @@ def link(path, here, links):
     return name
 
 
+def written_by(deck):
+    """The files that a run writes into its folder."""
+    found = [value_in(element, key) for section, key in WRITTEN for element in deck.root.findall("ParameterList")
+             if (element.get("name") or "").startswith(section)]
+    return [name for name in found if name]
+
+
 def check_written(deck, taken):
     """Checks that runs write into their own folders, and not over files that they read."""
     for section, key in WRITTEN:
