@@ -377,7 +377,7 @@ TEST(Tools, ThatAreNewInALaterRunAreToldOf) {
   Parts parts;
   parts.times = key("Final Time", "1e-8");
   const auto told = [&](const std::string& name, const std::string& more) {
-    const std::string restart = section("Restart", key("Filename", name + ".restart"));
+    const std::string restart = section("Restart", key("Filename", (folder / (name + ".restart")).string()));
     testing::internal::CaptureStdout();
     EXPECT_TRUE(run(
         folder.write(name + ".xml", changed(parts.text(), "<ParameterList>\n", "<ParameterList>\n" + restart + more)),
