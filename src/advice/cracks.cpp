@@ -57,8 +57,8 @@ Tensor axes_of(const Domain& domain, const MaterialBlock& block) {
   return axes;
 }
 
-// Collective. The layers of the plates of a block on a lattice, if whole families see both of their
-// faces; 0 for other blocks.
+// Collective. The layers of the plates of a block on a lattice, if whole families see both of their faces; 0 for other
+// blocks.
 int layers_of_plates(const Body& body, const MaterialBlock& block, const BlockHorizons& of_block) {
   const Domain& domain = body.domain;
   const int reach = static_cast<int>(of_block.largest / of_block.spacing * (1 + 1e-9));

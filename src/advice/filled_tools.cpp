@@ -48,7 +48,7 @@ std::string filled_tools(const Situation& situation) {
   text.precision(3);
   for (std::size_t n = 0; n < tools.size(); ++n) {
     const Vector offset = tools[n].offset(situation.start);
-    // What an earlier run has cut off stays so.
+    // Cells that an earlier run has cut are not cut again.
     const bool cuts = tools[n].reaches && !scene.tools[n].is_resumed;
     Met inside, cells;
     for (const int i : tools[n].points) {

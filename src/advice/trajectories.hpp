@@ -36,7 +36,8 @@ std::vector<View> views_of(const Body& body, const std::vector<Trajectory>& all,
 // touch at the start meet only if they go on to overlap, and none whose ways are too short.
 std::optional<double> meeting_time(const Trajectory& a, const Trajectory& b, double duration);
 
-// The same of boxes that overlap in all of these views, the second block shifted.
+// The first time in [0, duration] at which the boxes of cells overlap in all of these views, s; the second block is
+// shifted by `shift`, m.
 std::optional<double> meeting_time(const std::vector<View>& views, double duration,
                                    const Vector& shift = Vector::Zero());
 

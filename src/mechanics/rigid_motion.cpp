@@ -15,7 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool are_one(const Extremes& most) { return (most.head<3>() == -most.tail<3>()).all(); }
 
-// Of a block's points on this rank; infinite if one differs from the others.
+// The extremes over a block's points on this rank; infinite if the velocity of a point differs from that of the others.
 Extremes extremes(const Body& body, const MaterialBlock& block, int number) {
   Extremes most = Extremes::Constant(-infinity);
   if (block.points.empty()) return most;

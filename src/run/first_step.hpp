@@ -1,4 +1,4 @@
-// What only the length of the first explicit step can tell of a deck.
+// A check of the deck that needs the length of the first explicit step.
 #pragma once
 
 #include "integrators/explicit/step_length.hpp"

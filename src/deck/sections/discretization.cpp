@@ -65,13 +65,13 @@ const ChoiceKey<MeshType> type(
 const OptionalKey<std::string> mesh_file(
     {.name = "Input Mesh File", .meaning = "Path relative to the deck's folder. Required for Exodus and Text File."});
 
-const Key neighborhood = {.name = "NeighborhoodType",
-                          .kind = Kind::choice,
-                          .choices = {"Spherical", "Box"},
-                          .meaning =
-                              "Required for PdQuickGrid. Spherical: neighbors are the points within the horizon; Box: "
-                              "those in a box of cells, "
-                              "as long along each axis as the horizon, rounded (Peridigm's default)."};
+const Key neighborhood = {
+    .name = "NeighborhoodType",
+    .kind = Kind::choice,
+    .choices = {"Spherical", "Box"},
+    .meaning =
+        "Required for PdQuickGrid. Spherical: neighbors are the points within the horizon; Box: "
+        "those in a box of cells, as long along each axis as the horizon, rounded (Peridigm's default)."};
 
 const ChoiceKey<Points> points(
     {.name = "Points",

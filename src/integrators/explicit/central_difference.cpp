@@ -357,7 +357,7 @@ void CentralDifference::serialize_steps(Archive& archive) {
   restrict_conditions();
   if (!may_subcycle(control_) && multi_stepping_.level_count() > 0) length_.ask_for_levels();
   for (MaterialBlock& block : body_.blocks) {
-    // That of ordinary solids does not depend on the deformation; other laws need it in rigid motion only.
+    // The bound at rest of ordinary solids does not depend on the deformation; other laws use it in rigid motion only.
     if (!block.in_rigid_motion && !block.is_ordinary()) continue;
     block.rest_frequency_bound = largest_frequency_bound(body_, block);
   }

@@ -672,7 +672,8 @@ TEST(OblongCells, OfOrdinaryPointsSurfacesAndCracksAreToldOf) {
   expect_told(told(itself), {dilatation, surfaces});
 }
 
-// Of points beside a surface that is oblique to the axes of space, and of a single row, the sums tell nothing.
+// The sums over points of a single row, and over points beside a surface that is oblique to the axes of space, tell
+// nothing of the lattice.
 TEST(OblongCells, CubesOfTurnedAndThinBarsAreNone) {
   const auto told = [](const Lattice& lattice, const Vector& factors, const Tensor& turn) {
     const RunFolder folder(lattice);

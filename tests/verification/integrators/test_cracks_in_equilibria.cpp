@@ -166,7 +166,8 @@ struct Strip : Loaded {
   std::optional<QuasiStatic> solver;
 };
 
-// What a forecast counts before the first step in which bonds may break, and the first estimate of the time step.
+// The forecast counts memory that the first step in which bonds may break, and the first estimate of the time step,
+// allocate later.
 TEST(Fracture, ForecastsTheStatesThatAreKept) {
   const Communicator world;
   Body body = plane_body(Strip::spec_of(kinds[1]), world);
