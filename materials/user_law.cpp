@@ -386,15 +386,17 @@ std::string stiffer_in(const UserLaw& law, double dt) {
   constexpr double by_viscosity = 1.25;
   const TriedStiffness tried = tried_stiffness(law, dt);
   if (!tried.found) return "";
-  const double uniaxial = tried.stiffness.diagonal().head<3>().maxCoeff(), wave = law.bulk + 4 * law.shear / 3;
-  const bool in_some = tried.stiffest > (1 + given_constants) * stiffness_given(law);
-  if (!in_some && !(uniaxial > by_viscosity * wave)) return "";
-  std::ostringstream text;
-  text.precision(4);
-  text << "is stiffer, " << (in_some ? tried.stiffest : uniaxial) << " Pa, than its elastic constants say, "
-       << (in_some ? stiffness_given(law) : wave) << " Pa (" << (in_some ? "the larger of 3 K and 2 G" : "K + 4/3 G")
-       << "), in a step of " << dt << " s";
-  return text.str();
+  const auto says = [dt](double found, double given, const char* name) {
+    std::ostringstream text;
+    text.precision(4);
+    text << "is stiffer, " << found << " Pa, than its elastic constants say, " << given << " Pa (" << name
+         << "), in a step of " << dt << " s";
+    return text.str();
+  };
+  const double given = stiffness_given(law), wave = law.bulk + 4 * law.shear / 3;
+  const double uniaxial = tried.stiffness.diagonal().head<3>().maxCoeff();
+  if (tried.stiffest > (1 + given_constants) * given) return says(tried.stiffest, given, "the larger of 3 K and 2 G");
+  return uniaxial > by_viscosity * wave ? says(uniaxial, wave, "K + 4/3 G") : "";
 }
 
 std::string too_stiff_in(const UserLaw& law, double dt) {

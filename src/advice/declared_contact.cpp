@@ -34,6 +34,7 @@ std::optional<double> first_meeting(const Situation& situation, int one, int oth
   const Trajectory& a = situation.trajectories[one];
   const Images images(domain.periods, 0);
   std::optional<double> first;
+  std::vector<View> views;  // empty until boxes along the axes of space meet
   for (int image = 0; image < images.count(); ++image) {
     Trajectory b = situation.trajectories[other];
     const Vector shift = images[image].stretched(domain.halo.stretch()).shift;
@@ -41,8 +42,8 @@ std::optional<double> first_meeting(const Situation& situation, int one, int oth
     b.cells.translate(shift);
     if (may_be_bonded(domain.blocks[one], domain.blocks[other], a.places.exteriorDistance(b.places))) continue;
     auto time = meeting_time(a, b, situation.duration);
-    if (time) {  // in boxes along the axes of space
-      const std::vector<View> views = views_of(situation.scene.body, situation.trajectories, one, other);
+    if (time) {
+      if (views.empty()) views = views_of(situation.scene.body, situation.trajectories, one, other);
       time = meeting_time(views, situation.duration, shift);
     }
     if (time) first = std::min(*time, first.value_or(*time));
@@ -164,7 +165,7 @@ double bonds_of_parts(const Domain& domain, const std::vector<int>& blocks, cons
 bool is_whole(const Body& body) {
   bool lost = false;
   for (int i = 0; i < body.owned(); ++i) lost = lost || body.has_lost_bonds(i);
-  return body.domain.communicator.max(lost ? 1.0 : 0.0) == 0;
+  return !body.domain.communicator.any(lost);
 }
 
 // The blocks of owned points and ghosts.

@@ -86,7 +86,7 @@ std::vector<Eigen::AlignedBox3d> ways_of_points(const Scene& scene, const std::v
 // Restricts it to the times at which two blocks overlap along all axes.
 void restrict_to_overlap(const Trajectory& a, const Trajectory& b, double duration, double& from, double& to) {
   for (int c = 0; c < 3; ++c) {
-    if (stay_apart(a, b, c) || stay_apart(b, a, c)) to = -std::numeric_limits<double>::infinity();
+    if (stay_apart(a, b, c) || stay_apart(b, a, c)) to = -infinity;
     restrict_to_overlap(b, a, c, duration, from, to);
     restrict_to_overlap(a, b, c, duration, from, to);
   }
@@ -148,13 +148,11 @@ Tensor axes_along(const Vector& direction) {
 }  // namespace
 
 void move_on(const Conditions& conditions, const Domain& domain, double time, double step, std::vector<Vector>& ways) {
-  conditions.visit([&]<class One>(const One& one) {
-    if constexpr (std::is_same_v<One, PrescribedMotion>) {
-      for (const int i : one.points) {
-        const Vector X = domain.reference(i);
-        const double value = one.value.evaluate(X, one.is_velocity ? time - 0.5 * step : time);
-        for (const int c : one.components) ways[i][c] = one.is_velocity ? ways[i][c] + step * value : value;
-      }
+  for_each_motion(conditions, [&](const PrescribedMotion& one) {
+    for (const int i : one.points) {
+      const Vector X = domain.reference(i);
+      const double value = one.value.evaluate(X, one.is_velocity ? time - 0.5 * step : time);
+      for (const int c : one.components) ways[i][c] = one.is_velocity ? ways[i][c] + step * value : value;
     }
   });
 }

@@ -26,7 +26,7 @@ bool has_left_over(const deck::Deck& deck, const Communicator& communicator) {
     };
     is_left = may_go(deck.restart.file) && may_go(before_of(deck.restart.file));
   }
-  return communicator.max(is_left ? 1.0 : 0.0) > 0;
+  return communicator.any(is_left);
 }
 
 }  // namespace

@@ -26,7 +26,9 @@ void Conditions::add(Condition condition) {
   for (const Function& value : std::visit([](const auto& one) { return one.values_at_points(); }, condition))
     watch(value);
   const auto* tool = std::get_if<RigidTool>(&condition);
+  const auto* motion = std::get_if<PrescribedMotion>(&condition);
   has_friction_ = has_friction_ || (tool && tool->friction > 0);
+  has_motions_ = has_motions_ || (motion && !motion->points.empty());
   const auto later = [](const Condition& one, const Condition& other) { return stage_of(one) < stage_of(other); };
   in_order_.insert(std::upper_bound(in_order_.begin(), in_order_.end(), condition, later), std::move(condition));
 }
@@ -66,7 +68,7 @@ void add_work_of_forces(const Conditions& conditions, double t, double impulse_t
 void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body, ImpulseWork& work,
                        ReactionImpulses& impulses) {
   VelocityUpdate update{t, steps, body, impulses};
-  if (conditions.has_friction()) update.held.assign(body.owned(), 0);
+  if (conditions.has_friction_beside_motions()) update.held.assign(body.owned(), 0);
   conditions.visit([&]<class Type>(Type& one) {
     if constexpr (Type::stage != Stage::forces) take_turn(one, update);
   });

@@ -19,7 +19,8 @@ class Conditions {
   void add(Condition condition);
   // Checks a value that others evaluate, too (first_not_finite).
   void watch(const Function& value);
-  bool has_friction() const { return has_friction_; }  // of a rigid tool
+  // True if a rigid tool has friction and points have a prescribed motion.
+  bool has_friction_beside_motions() const { return has_friction_ && has_motions_; }
 
   // Visits the conditions in the order in which they act.
   template <class Visit>
@@ -37,7 +38,7 @@ class Conditions {
 
  private:
   std::vector<Condition> in_order_;
-  bool has_friction_ = false;
+  bool has_friction_ = false, has_motions_ = false;
   std::vector<Function> expressions_;
 };
 

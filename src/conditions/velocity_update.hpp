@@ -50,7 +50,7 @@ struct VelocityUpdate {
   };
   std::vector<Impulse> recorded = {};
   ImpulseWork of_tools = {};  // work on tools with a mass, on rank 0
-  // Bit c of a point: its velocity along c is prescribed. Empty if no tool has friction.
+  // Bit c of a point: its velocity along c is prescribed. Empty unless a tool has friction.
   std::vector<std::uint8_t> held = {};
 
   // Call it after the velocity of point i has changed.
