@@ -44,12 +44,12 @@ inline std::vector<FieldPart> parts_of_material_point() {
            .width = 1}};
 }
 
-// The integration points of quadratic correspondence, in tiles: F by columns, the six numbers of R, the stress.
+// The integration points of quadratic correspondence, in tiles: U, the six numbers of R, the stress. F = R U.
 class CellPoints {
  public:
-  static constexpr int rotation = 9, stress = 15, size = 21;  // offsets; count of all numbers
+  static constexpr int rotation = 6, stress = 12, size = 18;  // offsets; count of all numbers
   static std::vector<FieldPart> parts() {
-    return {{.name = "cell_deformation_gradient", .unit = "1", .meaning = "F", .kept = true, .width = rotation},
+    return {{.name = "cell_stretch", .unit = "1", .meaning = "U of F = R U", .kept = true, .width = rotation},
             {.name = "cell_rotation", .unit = "1", .meaning = "R", .kept = true, .width = stress - rotation},
             {.name = "cell_stress", .unit = "Pa", .meaning = "Rᵀ σ R", .kept = true, .width = size - stress}};
   }
@@ -58,7 +58,13 @@ class CellPoints {
   std::size_t places() const { return numbers_.size(); }
   MaterialPoint operator[](std::size_t place) const {
     MaterialPoint point;
-    for (int n = 0; n < size; ++n) number_of(point, n) = numbers_.at(place, n);
+    Symmetric stretch;
+    for (int c = 0; c < 6; ++c) {
+      stretch[c] = numbers_.at(place, c);
+      point.rotation.number(c) = numbers_.at(place, rotation + c);
+      point.stress[c] = numbers_.at(place, stress + c);
+    }
+    point.deformation_gradient = point.rotation.tensor() * to_tensor(stretch);
     return point;
   }
   void set(std::size_t place, const MaterialPoint& point) {
@@ -72,8 +78,11 @@ class CellPoints {
 
  private:
   static std::array<double, size> numbers_of(const MaterialPoint& point) {
+    const Symmetric stretch = symmetric_part(point.rotation.tensor().transpose() * point.deformation_gradient);
     std::array<double, size> numbers;
-    for (int n = 0; n < size; ++n) numbers[n] = number_of(point, n);
+    for (int c = 0; c < 6; ++c) {
+      numbers[c] = stretch[c], numbers[rotation + c] = point.rotation.number(c), numbers[stress + c] = point.stress[c];
+    }
     return numbers;
   }
 

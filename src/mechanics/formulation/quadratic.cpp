@@ -102,7 +102,7 @@ struct Update {
     for (int q = 0; q < 4; ++q) {
       // While an integration point of a cell holds, its failed ones bear their fraction of the shared pressure.
       const Lanes holds = small::where_positive(J[q], some_hold, Lanes::Zero());
-      at.numbers(q).set_motion(now[q].F, now[q].polar.rotation, holds);
+      at.numbers(q).set_motion(now[q].polar, holds);
       LaneTensor P = piola_kirchhoff(now[q].stress, now[q].polar, now[q].inverse_stretch, J[q]);
       for (auto& row : P.c) {  // zero if all have failed, for NaN, and if no stress is carried
         for (Lanes& number : row) number = small::where_positive(holds, number, Lanes::Zero());
@@ -156,18 +156,17 @@ struct Update {
   __attribute__((noinline)) void take_mean_force(const LaneGroup& group, const std::array<Deformed, 4>& now,
                                                  const Lanes& share, const Lanes& begun) const {
     const CellsOfGroup<L> at(block(), group);
-    std::array<LaneTensor, 4> F, R;
+    std::array<Polar<Lanes>, 4> polar;
     std::array<Lanes, 4> J;
     std::array<LaneSymmetric, 4> stress{now[0].stress, now[1].stress, now[2].stress, now[3].stress};
     for (int q = 0; q < 4; ++q) {
-      F[q] = at.numbers(q).deformation_gradients(), R[q] = at.numbers(q).rotations();
-      J[q] = small::determinant(F[q]);
+      polar[q] = {at.numbers(q).rotations(), at.numbers(q).stretches()};
+      J[q] = small::determinant(small::full(polar[q].stretch));
     }
     share_traces(J, {&stress[0], &stress[1], &stress[2], &stress[3]}, begun);
     QuadraticCells cells(group, *body().fits, body().domain.sites);
     for (int q = 0; q < 4; ++q) {
-      const LaneSymmetric stretch = small::symmetric_part(small::transposed_product(R[q], F[q]));
-      cells.add_stress(q, piola_kirchhoff(stress[q], {R[q], stretch}, small::inverse(stretch), J[q]));
+      cells.add_stress(q, piola_kirchhoff(stress[q], polar[q], small::inverse(polar[q].stretch), J[q]));
     }
     std::array<QuadraticState, LaneGroup::width> next;
     cells.store(group, share, [&](int l) -> QuadraticState& { return next[l]; });

@@ -28,17 +28,17 @@ inline Lanes shares(const Body& body, const LaneGroup& group, int level) {
   return lanes_of([&](int l) { return body.share(group.i[l], level); });
 }
 
-// F, R and stress of integration points by correspondence. They are read number by number: the transposition of
+// Stretch, R and stress of integration points by correspondence. They are read number by number: the transposition of
 // `numbers_of` takes a tenth longer here, where the numbers come from memory anyway.
 struct PointRecords {
   std::array<MaterialPoint*, LaneGroup::width> points;
 
-  LaneTensor deformation_gradients() const {
-    LaneTensor t;
+  LaneSymmetric stretches() const {
+    LaneTensor F;
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) t.c[i][j] = lanes_of([&](int l) { return points[l]->deformation_gradient(i, j); });
+      for (int j = 0; j < 3; ++j) F.c[i][j] = lanes_of([&](int l) { return points[l]->deformation_gradient(i, j); });
     }
-    return t;
+    return small::symmetric_part(small::transposed_product(rotations(), F));
   }
   LaneTensor rotations() const {
     LaneTensor R;
@@ -63,10 +63,10 @@ struct PointRecords {
 struct PointTile {
   TileRow* rows;  // in the layout of CellPoints
 
-  LaneTensor deformation_gradients() const {
-    LaneTensor t;
-    for (int c = 0; c < 9; ++c) t.c[c % 3][c / 3] = small::lanes(rows[c]);
-    return t;
+  LaneSymmetric stretches() const {
+    LaneSymmetric U;
+    for (int c = 0; c < 6; ++c) U[c] = small::lanes(rows[c]);
+    return U;
   }
   LaneTensor rotations() const {
     LaneTensor R;
@@ -82,9 +82,11 @@ struct PointTile {
   void set_stresses(const LaneSymmetric& s, const Lanes& which) const {
     for (int c = 0; c < 6; ++c) set(CellPoints::stress + c, s[c], which);
   }
-  void set_motion(const LaneTensor& F, const LaneTensor& R, const Lanes& which) const {
-    for (int c = 0; c < 9; ++c) set(c, F.c[c % 3][c / 3], which);
-    for (int c = 0; c < 6; ++c) set(CellPoints::rotation + c, R.c[c % 3][c / 3], which);
+  void set_motion(const Polar<Lanes>& motion, const Lanes& which) const {
+    for (int c = 0; c < 6; ++c) {
+      set(c, motion.stretch[c], which);
+      set(CellPoints::rotation + c, motion.rotation.c[c % 3][c / 3], which);
+    }
   }
 
  private:
@@ -110,11 +112,6 @@ inline materials::SymmetricOf<small::RawLanes> raw(const LaneSymmetric& s) {
   return result;
 }
 
-template <class Numbers>
-LaneSymmetric stretch_of(const Numbers& numbers) {
-  return small::symmetric_part(small::transposed_product(numbers.rotations(), numbers.deformation_gradients()));
-}
-
 // The unrotated rate of deformation, d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹). It is exact up to the midpoint rule, because F
 // is linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
 inline LaneSymmetric strain_rate(const LaneSymmetric& old, const LaneSymmetric& stretch, const Lanes& dt) {
@@ -130,7 +127,7 @@ inline LaneSymmetric strain_rate(const LaneSymmetric& old, const LaneSymmetric& 
 template <class Numbers>
 __attribute__((noinline)) LaneSymmetric elastic_rate(const Body& body, const LaneGroup& group, const Numbers& old,
                                                      const LaneSymmetric& stretch, const Lanes& dt) {
-  LaneSymmetric start = stretch_of(old), end = stretch;
+  LaneSymmetric start = old.stretches(), end = stretch;
   const Lanes before = lanes_of([&](int l) { return 1 + body.expansion[group.i[l]].before; });
   const Lanes now = lanes_of([&](int l) { return 1 + body.expansion[group.i[l]].now; });
   for (int c = 0; c < 6; ++c) start.c[c] /= before, end.c[c] /= now;
@@ -185,7 +182,7 @@ struct LawUpdate {
     if (pass.dt > 0 && !body.expansion.empty()) {
       now.rates = elastic_rate(body, group, old, polar.stretch, pass.dt * share);
     } else if (pass.dt > 0) {
-      now.rates = strain_rate(stretch_of(old), polar.stretch, pass.dt * share);
+      now.rates = strain_rate(old.stretches(), polar.stretch, pass.dt * share);
     } else {
       for (int c = 0; c < 6; ++c) now.rates.c[c].setZero();
     }
