@@ -188,20 +188,6 @@ void compare_images(const Texts& other, const Texts& now, std::vector<std::strin
   }
 }
 
-std::vector<HeldSet> held_sets(const Texts& other, const Texts& now) {
-  std::vector<HeldSet> held;
-  for (const auto& [keys, name] : keys_of(other, {"Prescribed Displacement", "Prescribed Velocity"})) {
-    const std::string set = text_at(other, name + " > Node Set"), path = "Node Sets > " + set;
-    const auto differs = [&](const std::string& one) {
-      return is_within(one, path) && text_at(other, one) != text_at(now, one);
-    };
-    if (std::ranges::none_of(paths_of(other, now), differs)) {
-      held.push_back({set, text_at(other, name + " > Coordinate")});
-    }
-  }
-  return held;
-}
-
 // The files that a run has written, as seen from the folder of its checkpoint, wherever it ran.
 std::vector<std::filesystem::path> files_of(const Texts& texts) {
   const std::string checkpoint = "Restart > Filename";
@@ -225,8 +211,7 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
   StartChanges changes{.after_equilibria = other.contains("Solver > QuasiStatic"),
                        .same_solver = true,
                        .same_contact = true,
-                       .same_conditions = true,
-                       .same_loads = true};
+                       .same_conditions = true};
   std::string whole;  // a section that only one of both has: its keys are not named
   for (const std::string& path : paths_of(other, now)) {
     const std::string was = text_at(other, path), is = text_at(now, path);
@@ -239,21 +224,13 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
     if (path.ends_with(" > Damage Model") && !other.contains(path)) changes.same_solver = false;
     if (is_within(path, "Contact")) changes.same_contact = false;
     if (is_within(path, "Boundary Conditions") || is_within(path, "Node Sets")) changes.same_conditions = false;
-    if (is_within(path, "Node Sets")) changes.same_loads = false;
     if (sets_masses(path, other, now)) changes.masses = path + ": " + both(was, "there", is, "here");
     const std::string uncounted = not_counted(path, other, now);
     if ((is_of_the_body(path, other) || !uncounted.empty()) && !within)
       changes.refused.push_back(path + ": " + both(was, "there", is, "here") + uncounted);
   }
   compare_images(other, now, changes.refused);
-  const auto sets_of = [](const Texts& texts) {
-    std::multiset<std::string> all;
-    for (const auto& [keys, name] : keys_of(texts, {"Body Force"})) all.insert(keys);
-    return all;
-  };
-  changes.same_loads = changes.same_loads && sets_of(other) == sets_of(now);
   changes.same_conditions = changes.same_conditions && other_keys.conditions == now_keys.conditions;
-  changes.held = held_sets(other, now);
   changes.files = files_of(other);
   return changes;
 }

@@ -18,19 +18,13 @@ struct Changes {
 // default.
 Changes changes(const std::string& before, const std::string& now);
 
-// Points that another run held along some axes, by the name of a set that means the same in both decks.
-struct HeldSet {
-  std::string name, axes;  // axes: "xz"
-};
-
 // How a deck that starts from the state of another run (Start From) differs from the deck of that run.
 struct StartChanges {
   std::vector<std::string> refused;          // keys that make it another body, as above
   std::vector<std::filesystem::path> files;  // that the other run has written, seen from the folder of its checkpoint
   std::string masses;                        // another mass scaling, as above; "" if it is the same
   bool after_equilibria = false;             // the other run's solver
-  std::vector<HeldSet> held;                 // by prescribed motions of the other run
-  bool same_solver = false, same_contact = false, same_conditions = false, same_loads = false;
+  bool same_solver = false, same_contact = false, same_conditions = false;
 };
 StartChanges start_changes(const std::string& other, const std::string& now);
 

@@ -147,7 +147,7 @@ void Monitor::check_step(const CentralDifference& solver) {
   const double now = solver.critical_time_step();  // the step that is taken may be shorter at the end of the run
   if (first_step_ == 0) first_step_ = now;
   const contact::Contact& contact = solver.contact();
-  if (!(now >= limits_.smallest_step * first_step_) && !(told_[step] && std::isfinite(now))) {
+  if (!(now >= limits_.smallest_step * first_step_) && !(is_silent(step) && std::isfinite(now))) {
     std::ostringstream text;
     const std::string point = fastest_point(body_);
     text << at(solver.time()) << "the critical time step has fallen to " << now << " s from " << first_step_
@@ -157,7 +157,7 @@ void Monitor::check_step(const CentralDifference& solver) {
     passed(step, point.empty() ? "" : text.str());
     if (!std::isfinite(now)) raise_together(body_.domain.communicator, point.empty() ? "" : text.str());
   }
-  if (contact.penetration() > limits_.penetration && !told_[penetration]) {
+  if (contact.penetration() > limits_.penetration && !is_silent(penetration)) {
     const contact::DeepestPenetration deepest = contact.deepest();
     std::ostringstream text;
     if (deepest.point >= 0 && deepest.penetration == contact.penetration()) {
@@ -175,7 +175,7 @@ void Monitor::check_step(const CentralDifference& solver) {
 }
 
 void Monitor::check_interpenetration(double time, const contact::Contact& contact) {
-  if (!contact.any() || limits_.interpenetration >= 1 || told_[interpenetration] || time < next_look_) return;
+  if (!contact.any() || limits_.interpenetration >= 1 || is_silent(interpenetration) || time < next_look_) return;
   next_look_ = time + pause_;
   const auto found = contact::find_interpenetration(body_.domain, contact, limits_.interpenetration);
   if (!found) return;

@@ -64,6 +64,8 @@ class Monitor {
   static constexpr double looks = 200;  // checks per run of energies, interpenetration and tools between points
   static constexpr double costly = 10;  // one of this many checks is for undeclared contact
   void passed(What what, const std::string& text);
+  // True if this limit has nothing more to say. A run that continues may stop where the one before it went on.
+  bool is_silent(What what) const { return told_[what] && !limits_.stops; }
   void tell_once(What what, const std::string& text);
   void warn(What what, const std::string& text);
   void check_meeting(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools);

@@ -14,7 +14,6 @@
 #include "run/input.hpp"
 #include "setup/conditions.hpp"
 #include "setup/setup.hpp"
-#include "topology/point_group.hpp"
 
 namespace strut {
 
@@ -31,12 +30,12 @@ bool has_initial_velocity(const deck::Deck& deck) {
 }
 
 // True for data that a checkpoint may lack: a body that could not break is whole, one that was not heated has not
-// expanded, and new contact begins anew.
+// expanded, equilibria have no velocities, and new contact begins anew.
 bool may_be_missing(const std::string& name) {
   constexpr std::array of_points = {
-      "thermal_strain",  "expansion_pull", "expansion_work", "reference_temperature", "damage",
-      "fracture_energy", "released",       "breaks",         "averaged_indicator",    "tensor_state",
-      "scalar_state",    "gradient_state", "quadratic_state"};
+      "thermal_strain",  "expansion_pull", "expansion_work",  "reference_temperature", "damage",
+      "fracture_energy", "released",       "breaks",          "averaged_indicator",    "tensor_state",
+      "scalar_state",    "gradient_state", "quadratic_state", "velocity_now"};
   if (name.starts_with("contact_") || name == "penetration" || name == "searches") return true;
   if (name.ends_with("_reach")) return true;  // a tool that was not there
   return std::ranges::any_of(of_points, [&](const char* one) { return name == std::string("all points > ") + one; });
@@ -63,32 +62,6 @@ std::string other_stretch(const deck::Deck& deck, const std::vector<Period>& per
                    ", as the checkpoint has it");
   }
   return "";
-}
-
-// The change of a velocity by the forces of half a step, 0 in components that did not change in the step before: a
-// condition or a tool of the other run held these at one speed, against the same forces.
-Vector without_held(const Vector& change, const Vector& before) {
-  constexpr double none = 1e-6;  // a prescribed displacement gives a speed to round-off
-  return (before.array().abs() > none * change.array().abs()).select(change, 0);
-}
-
-// 1 for each component of a velocity, 0 where a prescribed motion of the other run held it: without_held does not see
-// those whose speed changes.
-std::vector<Vector> free_components(const std::vector<deck::HeldSet>& held, const PointCloud& cloud) {
-  std::vector<Vector> free(cloud.size(), Vector::Ones());
-  const auto has = [](const std::vector<std::string>& names, const std::string& name) {
-    return std::ranges::find(names, name) != names.end();
-  };
-  for (const deck::HeldSet& one : held) {
-    if (one.name != "all" && !has(cloud.set_names, one.name) && !has(cloud.block_names, one.name)) continue;
-    const PointGroup points(cloud, one.name, key);
-    for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
-      for (int c = 0; c < 3 && points.counts(cloud, i); ++c) {
-        if (one.axes.find("xyz"[c]) != std::string::npos) free[i][c] = 0;
-      }
-    }
-  }
-  return free;
 }
 
 void refuse_displacements(const deck::Deck& deck, deck::Problems& problems) {
@@ -164,10 +137,11 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   keep_expansion(facts_.has_expanded, body);
   const contact::Kinematics kinematics{body.domain, body.velocity, body.density};
   UserLibraries libraries(deck, communicator_);
-  const auto pass = [&](Archive archive, double& last_step) {
+  std::vector<Vector> velocities(body.owned(), Vector::Zero());  // at the time of the checkpoint
+  const auto pass = [&](Archive archive) {
     libraries.serialize(archive);
-    archive.number("dt", last_step);
     serialize(archive, body);  // the node sets are those of this deck
+    archive.field("velocity_now", 3, [&](std::size_t i, int c) -> double& { return velocities[i][c]; });
     if (changes_.same_conditions && goes_on_) {
       serialize_tools(archive, scene.conditions, body.owned());  // advice is of where they are
     } else if (changes_.same_conditions) {
@@ -176,33 +150,24 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
     if (scene.fracture) scene.fracture->serialize(archive, body);
     if (!goes_on_ && changes_.same_contact) scene.contact.serialize(archive, kinematics, 0);
   };
-  double last_step = 0;  // s
   Snapshot snapshot;
-  pass(Archive::saving_to(snapshot), last_step);
+  pass(Archive::saving_to(snapshot));
   const auto all = [](const std::string&) { return true; };
   const std::vector<std::string> missing = io::read_checkpoint_parts(facts_, communicator_, all, snapshot);
   check_missing(facts_.file, missing, communicator_);
   raise_together(communicator_, other_stretch(deck, body.domain.periods, snapshot));
-  pass(Archive::loading_from(snapshot), last_step);
+  pass(Archive::loading_from(snapshot));
   if (!keeps_velocities_) {
     std::ranges::fill(body.velocity, Vector::Zero());
   } else if (!goes_on_ && !changes_.after_equilibria) {
-    // From the mid-step before the checkpoint to its time, with the loads there, which are known if this deck has them.
-    const std::vector<Vector> inner = body.force_density;
-    if (changes_.same_loads) add_forces(scene.conditions, facts_.time, body);
-    const std::vector<Vector> free = free_components(changes_.held, body.domain.cloud);
-    for (int i = 0; i < body.owned(); ++i) {
-      const Vector change = 0.5 * last_step / body.density[i] * body.force_density[i];
-      body.velocity[i] += free[i].cwiseProduct(without_held(change, body.velocity[i] - body.previous_velocity[i]));
-    }
-    body.force_density = inner;
+    std::ranges::copy(velocities, body.velocity.begin());
   }
   if (!goes_on_) body.previous_velocity = *body.velocity;
   const auto knows_reaches = [&](int tool) {
     const std::string name = "all points > tool_" + std::to_string(tool) + "_reach";
     return changes_.same_conditions && std::ranges::find(missing, name) == missing.end();
   };
-  begin_from_here(deck, {goes_on_, changes_.same_conditions}, knows_reaches, scene, communicator_);
+  begin_from_here(deck, {goes_on_, changes_.same_conditions, keeps_velocities_}, knows_reaches, scene, communicator_);
   const bool jumps = keeps_velocities_ && !changes_.after_equilibria && !changes_.masses.empty();
   const std::string other_laws = libraries.changed();
   return (facts_.note.empty() ? "" : "WARNING: " + facts_.note + "\n") +
@@ -214,6 +179,7 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
 
 std::string StartState::story(const deck::Deck& deck, const Scene& scene) const {
   const Energies stored = stored_energies(scene.body);
+  const bool replaced = !goes_on_ && has_initial_velocity(deck) && !(changes_.same_conditions && keeps_velocities_);
   std::ostringstream text, time;
   time.precision(17);  // to go on, Initial Time must be the same
   time << facts_.time;
@@ -223,8 +189,8 @@ std::string StartState::story(const deck::Deck& deck, const Scene& scene) const 
            : deck.solver.quasi_static.has_value() ? "without velocities"
            : keeps_velocities_                    ? "with its velocities"
                                                   : "at rest")
-       << "; " << stored.elastic << " J stored and " << stored.dissipated + stored.fracture
-       << " J dissipated before are given, work counts from here";
+       << (replaced ? ", but for the points of an Initial Velocity" : "") << "; " << stored.elastic << " J stored and "
+       << stored.dissipated + stored.fracture << " J dissipated before are given, work counts from here";
   if (!goes_on_ || !changes_.same_conditions)
     text << "; loads" << (scene.tools.empty() ? "" : ", rigid tools") << " begin anew";
   if (scene.contact.any() && !changes_.same_contact) text << "; contact begins anew, without friction";

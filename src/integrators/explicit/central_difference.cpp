@@ -229,6 +229,35 @@ void CentralDifference::even_out() {
   });
 }
 
+// Collective. The velocities at time() of owned points, before advance_velocity(): the means of those before and after
+// an impulse of a step as long as the last one. Changes nothing.
+std::vector<Vector> CentralDifference::velocities_now() {
+  const auto owned = [this](const std::vector<Vector>& all) {
+    return std::vector<Vector>(all.begin(), all.begin() + body_.owned());
+  };
+  const std::vector<Vector> before = owned(*body_.velocity), previous = owned(*body_.previous_velocity),
+                            forces = *body_.force_density;
+  if (dt() == 0) return before;
+  const auto pass_tools = [this](Archive archive) {
+    archive.points("all points", owned_ids());
+    serialize_tools(archive, conditions_, body_.owned());
+  };
+  Snapshot tools;
+  pass_tools(Archive::saving_to(tools));
+  add_forces(conditions_, time_, body_);
+  for_each_point(0, body_.owned(), [&](int i) { kick(i, dt()); });
+  ReactionImpulses impulses = reactions_.none();
+  ImpulseWork work;
+  change_velocities(conditions_, time_, point_steps(), body_, work, impulses);
+  pass_tools(Archive::loading_from(tools));
+  std::vector<Vector> now(before.size());
+  for (std::size_t i = 0; i < now.size(); ++i) now[i] = 0.5 * (before[i] + body_.velocity[i]);
+  std::ranges::copy(before, body_.velocity.begin());
+  std::ranges::copy(previous, body_.previous_velocity.begin());
+  std::ranges::copy(forces, body_.force_density.begin());
+  return now;
+}
+
 void CentralDifference::drift(int i, const PointTimeSteps& steps) {
   body_.domain.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array();
 }
@@ -334,13 +363,15 @@ void CentralDifference::go_on_from(const Ledger& before) {
 
 void CentralDifference::serialize(Archive& archive) {
   strut::serialize(archive, body_);
+  std::vector<Vector> now = archive.loading() ? std::vector<Vector>(body_.owned()) : velocities_now();
+  archive.field("velocity_now", 3, [&now](std::size_t i, int c) -> double& { return now[i][c]; });  // for Start From
   if (fracture_) fracture_->serialize(archive, body_);
   serialize_steps(archive);
 }
 
 void CentralDifference::serialize_steps(Archive& archive) {
   archive.number("time", time_);
-  archive.points("all points", {body_.domain.cloud.ids.begin(), body_.domain.cloud.ids.begin() + body_.owned()});
+  archive.points("all points", owned_ids());
   multi_stepping_.serialize(archive, body_);
   length_.serialize(archive, body_);
   serialize_tools(archive, conditions_, body_.owned());

@@ -122,6 +122,24 @@ class Starts(InFolder):
                 run = strut.run(start(but(deck, Solver=left), "first.restart", first.time))
                 self.assertGoesOn(whole, run, 1e-9)
 
+    def test_other_steps_begin_with_the_velocities_there(self):
+        """At the mid-step before; the change within half a step is a part of that of a whole step. Tools and ends held points."""
+        top = {"Type": "Rigid Plane", "Point": [0, 0, 8 * SPACING], "Normal": [0, 0, -1]}
+        push = {"Type": "Prescribed Velocity", "Node Set": "block_zmax", "Coordinate": "z", "Value": "-4e6*t"}
+        end = {"Type": "Non-Reflecting End", "Node Set": "block_zmin", "Normal": [0, 0, -1]}
+        fly = {"Type": "Initial Velocity", "Coordinate": "z", "Value": 20.0}
+        for name, conditions in {"tool": {"top": {**top, "Travel Z": "-2e6*t*t"}}, "light tool": {"top": {**top, "Mass": 1e-4, "Speed Z": -20.0}},
+                                 "end": {"push": push, "end": end}, "flight": {"fly": fly, "top": {**top, "Travel Z": "-20*t"}}}.items():
+            with self.subTest(name):
+                deck = but(block.deck(Solver={"Final Time": 1e-5}, History={"Frequency": 1}), Boundary_Conditions=conditions)
+                first = ended(deck, 30, block.mesh())
+                before = first.whole("Velocity")
+                other = {**deck["Solver"], "Verlet": {"Safety Factor": 0.7}}
+                run = strut.Run(start(but(deck, Solver=other), "first.restart", first.time), block.mesh())
+                run.advance(steps=0)
+                self.assertIn("with its velocities;", run.log)
+                self.assertLess(np.abs(run.whole("Velocity") - before).max(), 1e-12 * np.abs(before).max())
+
     def test_every_body_goes_on_with_the_same_bits(self):
         """Formulations and laws, symmetry planes, periodic sides, mass scaling."""
         metal = block.deck()["Materials"]["metal"]

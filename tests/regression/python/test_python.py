@@ -67,6 +67,14 @@ class Runs(InFolder):
         again = strut.run(deck, block.mesh(), continued=True)
         np.testing.assert_array_equal(again.fields["Cauchy_Stress"], whole.fields["Cauchy_Stress"])
 
+    def test_a_continued_run_stops_at_a_limit_of_which_the_one_before_has_told(self):
+        """Watch > Beyond Limits, which a run that continues may change."""
+        deck = block.deck(Watch={"Smallest Step": 1.0, "Beyond Limits": "Continue"}, Restart={"Filename": "kept.restart"})
+        self.assertIn("critical time step has fallen", strut.run(deck, block.mesh()).log)
+        deck["Watch"]["Beyond Limits"], deck["Solver"]["Final Time"] = "Stop", 6e-6
+        with self.assertRaisesRegex(strut.Error, "critical time step has fallen"):
+            strut.run(deck, block.mesh(), continued=True)
+
     def test_files_of_a_run_that_has_ended_are_free_for_the_next(self):
         kept = []
         for speed in (10, 20):
