@@ -25,7 +25,7 @@ std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& poi
 // integral depends on where the steps fall, a line each.
 std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);
 
-// Collective. For equilibria: warns of values that are far larger between two load steps than at any, a line each.
+// Collective. For equilibria: warns of values between two load steps outside of those at both, a line each.
 std::string values_between_load_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);
 
 }  // namespace strut

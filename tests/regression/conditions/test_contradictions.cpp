@@ -261,12 +261,15 @@ TEST(Pulses, ThatActedBeforeTheStepsAreNone) {
 
 // Load steps at 0.5, 1, … µs, ten of them.
 TEST(Values, BetweenLoadStepsAreTold) {
-  for (const char* value : {"1e-12/(2.2e-6 - t) - 1e-12/2.2e-6", "1e-4*sin(3.14159265358979e6*2*t)"}) {
+  for (const char* value :
+       {"1e-12/(2.2e-6 - t) - 1e-12/2.2e-6", "1e-4*sin(3.14159265358979e6*2*t)",
+        "table(t, 0, 0, 1.25e-6, 1e-4, 5e-6, 0)", "table(t, 0, 0, 1e-6, 1e-4, 1.25e-6, 5e-5, 1.5e-6, 1e-4, 5e-6, 0)"}) {
     expect_said(said_of(block(displacement("a", "foot", "z", value)), Loading::slow).warnings,
                 {"WARNING: Boundary Conditions > a > Value: reaches", "between two load steps", "10 load steps"},
                 value);
   }
-  for (const char* value : {"1e-4*sin(1e6*t)", "5*t", "1e-4*exp(1e6*t) - 1e-4"}) {
+  for (const char* value :
+       {"1e-4*sin(1e6*t)", "5*t", "1e-4*exp(1e6*t) - 1e-4", "table(t, 0, 0, 1.5e-6, 1e-4, 5e-6, 0)"}) {
     const std::string warnings = said_of(block(displacement("a", "foot", "z", value)), Loading::slow).warnings;
     EXPECT_EQ(warnings.find("between two load steps"), std::string::npos) << value;
   }
