@@ -23,7 +23,7 @@ constexpr double least_horizon = 1.5;  // in edges of a cube with the point's vo
 // Elements of two parts of a mesh, which have no node in common: nearer than this, in edges of such a cube, points of a
 // body that is defined twice are, and those of tetrahedra at one face are not (0.64).
 constexpr double inside_below = 0.6;
-constexpr double touching = 1.01;  // reaches of both cells, for round-off
+constexpr double touching = 1.01, overlapping = 0.99;  // of the reaches of both cells, for round-off
 
 // A point as it travels to other ranks.
 struct Grain {
@@ -108,16 +108,18 @@ std::string crowds(const Body& body, std::int64_t pieces) {
 
 namespace {
 
-// A whole element with nodes, as it travels to other ranks. `part`: what the mesh joins, `piece`: what bonds join.
+// An element with nodes, as it travels to other ranks. `part`: what the mesh joins, `piece`: what bonds join.
 struct Element {
   double place[3], edge, moments[6];
-  std::int64_t id, block, body, part, piece, nodes[8];  // nodes: ascending; after the last one it is repeated
+  std::int64_t id, block, body, part, piece, is_whole, nodes[8];  // nodes: ascending; the last one is repeated
 
   // The distance from its point to its face in a direction of unit length, as reach_of_cell().
   double reach(const Vector& direction) const {
     const Symmetric all = Eigen::Map<const Symmetric>(moments);  // zero where nothing needs them
     return std::sqrt(3 * direction.dot(to_tensor(all) * direction));
   }
+
+  bool is_hexahedron() const { return nodes[6] != nodes[7]; }
 
   // A part may be another one because a crack cuts the bonds of elements with a common node.
   bool shares_a_node(const Element& other) const {
@@ -131,19 +133,40 @@ struct AtOtherParts {
   std::vector<int> inside, beside;
 };
 
+// True if two elements touch along the line between their points.
+bool touch(const Element& one, const Element& other, const Vector& between) {
+  const Vector direction = between.stableNormalized();
+  return between.norm() < touching * (one.reach(direction) + other.reach(direction));
+}
+
+// True if two boxes along the axes touch at a face, or overlap.
+bool touch_as_boxes(const Element& one, const Element& other, const Vector& between) {
+  int overlaps = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double reaches = one.reach(Vector::Unit(c)) + other.reach(Vector::Unit(c)), apart = std::abs(between[c]);
+    if (!(apart < touching * reaches)) return false;
+    overlaps += apart < overlapping * reaches ? 1 : 0;
+  }
+  return overlaps >= 2;
+}
+
+bool is_along_an_axis(const Vector& between) {
+  return between.norm() - between.lpNorm<Eigen::Infinity>() < 1e-9 * between.norm();
+}
+
 // A partly filled cell has its point anywhere, and its neighbors may be parts of their own.
 bool is_whole(const Domain& domain, int i) {
   const double whole = std::pow(domain.cloud.spacings[i], 3);
-  return !domain.cloud.shared_nodes[i].empty() && std::abs(domain.volume(i) - whole) < 1e-6 * whole;
+  return std::abs(domain.volume(i) - whole) < 1e-6 * whole;
 }
 
-// Collective. The whole elements of this rank, `points` their local indices.
-std::vector<Element> whole_elements(const Domain& domain, const std::vector<std::int64_t>& parts,
-                                    std::vector<int>& points) {
+// Collective. The elements of this rank, `points` their local indices.
+std::vector<Element> elements_of(const Domain& domain, const std::vector<std::int64_t>& parts,
+                                 std::vector<int>& points) {
   const std::vector<std::int64_t> pieces = piece_ids(domain);
   std::vector<Element> elements;
   for (int i = 0; i < domain.owned; ++i) {
-    if (!is_whole(domain, i)) continue;
+    if (domain.cloud.shared_nodes[i].empty()) continue;
     const Vector X = domain.reference(i);
     const std::vector<std::int64_t>& nodes = domain.cloud.shared_nodes[i];
     points.push_back(i);
@@ -153,7 +176,8 @@ std::vector<Element> whole_elements(const Domain& domain, const std::vector<std:
                         .block = domain.cloud.blocks[i],
                         .body = domain.body_of(i),
                         .part = parts[i],
-                        .piece = pieces[i]});
+                        .piece = pieces[i],
+                        .is_whole = is_whole(domain, i)});
     for (std::size_t k = 0; k < 8; ++k) elements.back().nodes[k] = nodes[std::min(k, nodes.size() - 1)];
     if (!domain.cloud.shapes.empty()) Eigen::Map<Symmetric>(elements.back().moments) = domain.cloud.shapes[i].moments;
   }
@@ -184,7 +208,7 @@ AtOtherParts at_other_parts(const Domain& domain, const deck::Deck& deck) {
   for (int i = 0; i < domain.owned; ++i) count += parts[i] == domain.id(i) ? 1 : 0;
   if (!has_pieces(domain, domain.communicator.sum(count))) return {};
   std::vector<int> points;
-  std::vector<Element> elements = whole_elements(domain, parts, points);
+  std::vector<Element> elements = elements_of(domain, parts, points);
   std::vector<Vector> places;
   Eigen::AlignedBox3d mine;
   double near = std::numeric_limits<double>::min();
@@ -206,19 +230,24 @@ AtOtherParts at_other_parts(const Domain& domain, const deck::Deck& deck) {
   for (std::size_t e = 0; e < points.size(); ++e) {
     const Element& one = elements[e];
     bool is_inside = false, is_beside = false;
+    bool is_along_axes = false, is_beside_as_box = false;  // a cube's moments do not tell how it is turned
     grid.visit_near(places[e], [&](int j, const Vector& y) {
       const Element& other = elements[j];
-      if (other.body != one.body || other.part == one.part || one.shares_a_node(other)) return;
       const Vector between = y - places[e];
-      const double apart = between.norm();
-      is_inside = is_inside || apart < inside_below * std::min(one.edge, other.edge);
-      const Vector direction = between.stableNormalized();
-      is_beside = is_beside ||
-                  (other.piece != one.piece && apart < touching * (one.reach(direction) + other.reach(direction)) &&
-                   !is_cut(domain, points[e], other.id) && !meet(deck, names[one.block], names[other.block]));
+      is_along_axes = is_along_axes || (other.part == one.part && other.id != one.id && is_along_an_axis(between));
+      if (other.body != one.body || other.part == one.part || one.shares_a_node(other)) return;
+      const bool are_whole = one.is_whole != 0 && other.is_whole != 0;
+      if (!are_whole && other.block == one.block) return;
+      is_inside = is_inside || (are_whole && between.norm() < inside_below * std::min(one.edge, other.edge));
+      if (other.piece == one.piece || is_cut(domain, points[e], other.id) ||
+          meet(deck, names[one.block], names[other.block]))
+        return;
+      is_beside = is_beside || touch(one, other, between);
+      is_beside_as_box =
+          is_beside_as_box || (one.is_hexahedron() && other.is_hexahedron() && touch_as_boxes(one, other, between));
     });
     if (is_inside) found.inside.push_back(points[e]);
-    if (is_beside) found.beside.push_back(points[e]);
+    if (is_beside || (is_along_axes && is_beside_as_box)) found.beside.push_back(points[e]);
   }
   return found;
 }

@@ -171,8 +171,11 @@ TEST(Overlaps, AreNotWherePartsLieBesideEachOther) {
   const std::string told = told_of_two({4, 8, 4}, {0, 0, 4e-3}, quadratic());
   EXPECT_NE(told.find(cut), std::string::npos) << told;
   EXPECT_NE(told.find(unmerged), std::string::npos) << told;
-  EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4.2e-3}, quadratic()).find(unmerged), std::string::npos);  // a gap
-  EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4e-3}).find(unmerged), std::string::npos);                 // bonded
+  // Faces that overlap in part, as those of cells of two sizes do.
+  EXPECT_NE(told_of_two({4, 8, 4}, {0.5e-3, 0.4e-3, 4e-3}, quadratic()).find(unmerged), std::string::npos);
+  EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4.2e-3}, quadratic()).find(unmerged), std::string::npos);   // a gap
+  EXPECT_EQ(told_of_two({4, 8, 4}, {4e-3, 0, 4e-3}, quadratic()).find(unmerged), std::string::npos);  // at an edge
+  EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4e-3}).find(unmerged), std::string::npos);                  // bonded
 }
 
 // A crack cuts elements that share nodes into parts, too.
