@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "advice/checks.hpp"
@@ -81,9 +82,9 @@ bool is_crowded(const Domain& domain, int i, double volume_within) {
 
 // In a body of several pieces, visibility may leave out bonds between coincident points; otherwise families show them.
 bool has_pieces(const Domain& domain, std::int64_t pieces) {
-  std::int64_t bodies = 0;
-  for (const BlockHorizons& block : domain.blocks) bodies = std::max<std::int64_t>(bodies, block.body + 1);
-  return pieces > bodies;
+  std::set<int> bodies;
+  for (const BlockHorizons& block : domain.blocks) bodies.insert(block.body);
+  return pieces > std::ssize(bodies);
 }
 
 std::string crowds(const Body& body, std::int64_t pieces) {

@@ -146,7 +146,7 @@ std::vector<std::array<double, 2>> free_points(const Situation& situation, const
   }
   std::vector<double> shifts(domain.sites.size(), 0);
   for (const ImagePoint& image : domain.halo.images()) shifts[image.ghost] = image.by.period[period.axis];
-  std::vector<std::array<double, 2>> counts(domain.blocks.size(), {0, 0});
+  std::vector<std::array<double, 2>> counts(domain.body_count(), {0, 0});
   for (int i = 0; i < domain.owned; ++i) {
     auto& [across, free] = counts[domain.body_of(i)];
     domain.families.for_each(i, [&](int j) { across += shifts[j] != 0 ? 1 : 0; });

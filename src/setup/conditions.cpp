@@ -42,9 +42,7 @@ void check_values(const std::vector<Function>& values, const std::vector<int>& p
 
 // The mirrors of the bodies that a tool may meet.
 std::vector<Mirror> mirrors_of(const RigidTool& tool, const Domain& domain) {
-  int bodies = 0;
-  for (const BlockHorizons& block : domain.blocks) bodies = std::max(bodies, block.body + 1);
-  std::vector<double> meets(bodies, 0);
+  std::vector<double> meets(domain.body_count(), 0);
   for (const int i : tool.points) meets[domain.body_of(i)] = 1;
   domain.communicator.max(meets);
   std::vector<Mirror> mirrors = domain.mirrors;

@@ -1,6 +1,7 @@
 // The points of one rank, ready for mechanics: owned points and ghosts, families, halo.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -49,6 +50,11 @@ struct Domain {
   double volume(int i) const { return sites[i].volume(); }                         // m³
   double horizon(int i) const { return sites[i].horizon(); }                       // δ, m
   int body_of(int i) const { return blocks[cloud.blocks[i]].body; }                // of an owned point
+  int body_count() const {  // above each body's number, which some numbers below may lack
+    int count = 0;
+    for (const BlockHorizons& block : blocks) count = std::max(count, block.body + 1);
+    return count;
+  }
   std::int64_t id(int i) const { return i < owned ? cloud.ids[i] : ghost_ids[i - owned]; }
 };
 

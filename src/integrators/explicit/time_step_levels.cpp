@@ -177,9 +177,7 @@ void even_out(const Body& body, std::vector<std::uint8_t> damped, FrequencyBound
   std::vector<std::uint8_t> reaching = damped;
   spread(body, 1, damped);
   spread(body, max_level, reaching);  // levels fall by one a family
-  int bodies = 0;
-  for (const BlockHorizons& block : body.domain.blocks) bodies = std::max(bodies, block.body + 1);
-  std::vector<double> most(bodies, 0);
+  std::vector<double> most(body.domain.body_count(), 0);
   const auto of_body = [&](int i) -> double& { return most[body.domain.body_of(i)]; };
   for (int i = 0; i < body.owned(); ++i) {
     if (reaching[i]) of_body(i) = std::max(of_body(i), bounds.values[i]);

@@ -558,8 +558,9 @@ TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
 
 // If conditions hold all points, the bonds across the sides take the whole stretch: several times that of a free body.
 TEST(Stretches, ThatHeldPointsCannotFollowAreWarnedOf) {
-  const auto told = [](const std::string& stretch, const std::string& condition) {
+  const auto told = [](const std::string& stretch, const std::string& condition, const std::string& of_block = "") {
     Parts parts;
+    parts.blocks = changed(parts.blocks, key("Material", "copper"), key("Material", "copper") + of_block);
     parts.conditions = section("sides", key("Type", "Periodic Sides") + key("Coordinate", "z") + key("Lower", "0") +
                                             key("Upper", "6e-3") + key("Stretch", stretch)) +
                        condition;
@@ -570,6 +571,7 @@ TEST(Stretches, ThatHeldPointsCannotFollowAreWarnedOf) {
   };
   const std::string grows = "1 + 1e8*t*t", warning = "Stretch: conditions hold all points of the body";
   expect_told(told(grows, hold("all", "z", "0")), {"Boundary Conditions > sides > " + warning + " of block 'bar'"});
+  expect_told(told(grows, hold("all", "z", "0"), key("Separate Body", "true")), {warning});
   expect_told(told(grows, plane("cut", "Symmetry Plane", "all", "0 0 0", "0 0 1")), {warning});
   for (const std::string& free : {told("1", hold("all", "z", "0")), told(grows, hold("foot", "z", "0")),
                                   told(grows, hold("all", "x", "0")), told(grows, hold("all", "z", "1e8*t*t*z"))}) {
