@@ -79,8 +79,7 @@ std::vector<Function> straining_values(const deck::Condition& condition) {
   return {};
 }
 
-// The time that a wave takes for one spacing of each block, s. No step is longer than the largest, none of a point than
-// that of its block; and without substeps none than the smallest.
+// The time that a wave takes for one spacing of each block, s.
 std::vector<double> wave_times(const Body& body) {
   std::vector<double> times;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
@@ -96,6 +95,12 @@ double largest_at(const std::vector<double>& of_blocks, const std::vector<int>& 
   double largest = 0;
   for (const int i : points) largest = std::max(largest, of_blocks[body.domain.cloud.blocks[i]]);
   return body.domain.communicator.max(largest);
+}
+
+// About the longest step of some points, s. `by_waves`: the largest of their wave times, which only substeps reach.
+double longest_step(const deck::Solver& solver, const std::vector<double>& times, double by_waves) {
+  if (solver.fixed_dt) return *solver.fixed_dt;
+  return std::max(solver.subcycling ? by_waves : std::ranges::min(times), solver.scaled_dt.value_or(0));
 }
 
 // The largest coefficient of thermal expansion of the points over all ranks, 1/K.
@@ -155,7 +160,7 @@ std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& poi
     std::ranges::copy(straining_values(condition), std::back_inserter(values));
     if (std::ranges::none_of(values, &Function::depends_on_time)) continue;
     const Where there = where(points[c], body);
-    const double step = deck.solver.subcycling ? largest_at(times, points[c], body) : std::ranges::min(times);
+    const double step = longest_step(deck.solver, times, largest_at(times, points[c], body));
     const Steps steps{deck.solver.initial_time, deck.solver.final_time, step};
     const auto* sides = std::get_if<PeriodicSides>(&condition.kind);
     const bool heats = std::holds_alternative<PrescribedTemperature>(condition.kind);
@@ -178,7 +183,8 @@ std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& poi
 std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
   if (deck.solver.quasi_static) return "";
   constexpr double told = 0.005;  // of the impulse
-  const double step = std::ranges::max(wave_times(body));
+  const std::vector<double> times = wave_times(body);
+  const double step = longest_step(deck.solver, times, std::ranges::max(times));
   const bool acts_before = deck.start_from || deck.next_solver;
   std::ostringstream text;
   text.precision(2);
@@ -192,7 +198,7 @@ std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& poi
       if (!(step > told * pulse)) continue;
       text << "WARNING: " << value.path() << ": jumps twice within " << pulse
            << " s, and each step takes the value at one "
-           << "time: the integral over these is off by up to a step, " << 100 * step / pulse
+           << "time: the integral over these is off by up to a step, about " << 100 * step / pulse
            << " %; a ramp over some steps at each end reduces that\n";
     }
   }

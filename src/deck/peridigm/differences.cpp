@@ -137,7 +137,8 @@ class Differences {
       problems_.note("Contact > Models > " + model.name + " > Contact Radius",
                      "is the distance from which points push each other; those of two bodies that start nearer do so "
                      "from that distance on, in Peridigm from the radius on, so that they push at once, as hard as "
-                     "here after an approach by the difference of both");
+                     "here after an approach by the difference of both; those of one body that start nearer than 1/0.9 "
+                     "of it push from 0.9 of their first distance on");
       if (real_of(model, "Friction Coefficient").value_or(0) > 0) {
         problems_.note("Contact > Models > " + model.name + " > Friction Coefficient",
                        "acts across the normal of the surface, and no more than stops the sliding; in Peridigm across "

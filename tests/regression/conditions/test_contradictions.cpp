@@ -237,6 +237,9 @@ TEST(Pulses, OfFewStepsAreTold) {
                 {"WARNING: Boundary Conditions > a > Value: jumps twice within 2e-06 s", "off by up to a step"},
                 sampled);
   }
+  Parts in_small_steps = block(load(pulse));
+  in_small_steps.verlet = key("Fixed dt", "5e-9");
+  EXPECT_EQ(said_of(in_small_steps).warnings.find("jumps twice"), std::string::npos);
   const std::string tool = section("punch", key("Type", "Rigid Plane") + key("Point", "0 0 -1e-3") +
                                                 key("Normal", "0 0 1") + key("Mass", "1e-3") + key("Force Z", pulse));
   expect_said(said_of(block(tool)).warnings, {"WARNING: Boundary Conditions > punch > Force Z: jumps twice"}, "a tool");

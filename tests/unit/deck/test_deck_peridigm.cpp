@@ -234,7 +234,8 @@ TEST(DeckOfPeridigm, KeysWithoutEffectAreTold) {
         "here",
         "Contact > Models > touch > Contact Radius is the distance from which points push each "
         "other; those of two bodies that start nearer do so from that distance on, in Peridigm "
-        "from the radius on, so that they push at once, as hard as here after an approach by the difference of both",
+        "from the radius on, so that they push at once, as hard as here after an approach by the difference of both; "
+        "those of one body that start nearer than 1/0.9 of it push from 0.9 of their first distance on",
         "Verbose has no effect here: the program says what it does at all times",
         "Contact > Search Radius has no effect here: the program finds out when to search",
         "Contact > Search Frequency has no effect here: the program finds out when to search"}) {
