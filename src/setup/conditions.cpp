@@ -60,9 +60,7 @@ void set_reaches(RigidTool& tool, const Times& times, const Body& body) {
 
 // For bodies that an Initial Displacement has moved out of a tool: at the positions of the mesh they may overlap it.
 void set_reaches_from_here(double t, Scene& scene) {
-  scene.conditions.visit([&]<class Type>(Type& one) {
-    if constexpr (std::is_same_v<Type, RigidTool>) one.set_reaches(t, scene.body, BodyAt::present);
-  });
+  scene.conditions.visit([&](RigidTool& tool) { tool.set_reaches(t, scene.body, BodyAt::present); });
 }
 
 template <ConditionType Type>
@@ -299,11 +297,9 @@ void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::functi
     scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   auto of_scene = scene.tools.begin();
-  scene.conditions.visit([&]<class Type>(Type& one) {
-    if constexpr (std::is_same_v<Type, RigidTool>) {
-      of_scene->is_resumed = knows_reaches(one.reaction_place);
-      if (!of_scene++->is_resumed) one.set_reaches(t, scene.body, BodyAt::present);
-    }
+  scene.conditions.visit([&](RigidTool& tool) {
+    of_scene->is_resumed = knows_reaches(tool.reaction_place);
+    if (!of_scene++->is_resumed) tool.set_reaches(t, scene.body, BodyAt::present);
   });
 }
 
