@@ -40,11 +40,7 @@ std::vector<Held> held_directions(const deck::Deck& deck, const PointCloud& clou
     const auto* motion = std::get_if<PrescribedMotion>(&condition.kind);
     const auto* plane = std::get_if<SymmetryPlane>(&condition.kind);
     if (!motion && !plane) continue;
-    const PointGroup group(cloud, condition.node_set, "Node Set");
-    std::vector<int> points;
-    for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
-      if (group.counts(cloud, i)) points.push_back(i);
-    }
+    std::vector<int> points = PointGroup(cloud, condition.node_set, "Node Set").points(cloud);
     const int c = static_cast<int>(place);
     if (plane) all.push_back({c, plane->normal, opposite, std::move(points), true, plane->point});
     for (const int axis : motion ? motion->components : std::vector<int>{})

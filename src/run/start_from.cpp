@@ -81,9 +81,8 @@ std::vector<Vector> free_components(const std::vector<deck::HeldSet>& held, cons
   };
   for (const deck::HeldSet& one : held) {
     if (one.name != "all" && !has(cloud.set_names, one.name) && !has(cloud.block_names, one.name)) continue;
-    const PointGroup points(cloud, one.name, key);
-    for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
-      for (int c = 0; c < 3 && points.counts(cloud, i); ++c) {
+    for (const int i : PointGroup(cloud, one.name, key).points(cloud)) {
+      for (int c = 0; c < 3; ++c) {
         if (one.axes.find("xyz"[c]) != std::string::npos) free[i][c] = 0;
       }
     }

@@ -21,12 +21,7 @@ namespace {
 
 // This rank's points of a node set, a block, or all; the name has been checked.
 std::vector<int> points_of(const PointCloud& cloud, const std::string& set) {
-  const PointGroup group(cloud, set, "Node Set");
-  std::vector<int> points;
-  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
-    if (group.counts(cloud, i)) points.push_back(i);
-  }
-  return points;
+  return PointGroup(cloud, set, "Node Set").points(cloud);
 }
 
 // The time of the body as it was read, and that at which the conditions begin, s.
@@ -220,7 +215,7 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
   for (const deck::Condition& condition : deck.conditions) {
     try {
       const PointGroup group(cloud, condition.node_set, path(condition));
-      counts.push_back(static_cast<double>(group.points(cloud)));
+      counts.push_back(static_cast<double>(group.points(cloud).size()));
       known.push_back(&condition);
     } catch (const Error& error) {
       problems.add(error.what());
