@@ -48,12 +48,6 @@ const OptionalKey<double> initial_temperature({.name = "Initial Temperature",
                                                .range = positive,
                                                .meaning = "For laws with a temperature; default 293."});
 
-void check_horizon(const Values& values, Problems& problems) {
-  check_one_of(values, horizon, horizon_factor, problems);
-  if (values.given(horizon) || values.given(horizon_factor)) return;
-  problems.add(values.path_to(horizon), "missing; " + expected(horizon) + ", or 'Horizon Factor' in its place");
-}
-
 void check_overlaps(const std::vector<Block>& blocks, Problems& problems) {
   std::map<std::string, std::string> owners;  // block of the mesh -> section that names it
   const auto clash = [&](const Block& block, const std::string& taken, const std::string& owner) {
@@ -192,7 +186,7 @@ std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& 
                                const std::vector<NamedDamageModel>& damage_models, Problems& problems) {
   std::vector<Block> all;
   for (const Values& section : deck.section(name).sections()) {
-    check_horizon(section, problems);
+    check_exactly_one(section, horizon, horizon_factor, problems);
     const int of_material = find_named(section, material, materials, "Materials", problems);
     const Material& made_of = of_material < static_cast<int>(materials.size()) ? materials[of_material] : Material();
     check_temperature(section, made_of, problems);
