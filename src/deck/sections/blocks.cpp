@@ -86,10 +86,6 @@ bool asks_for_temperature(const DamageModel& model) {
   return johnson_cook && johnson_cook->constants[4] != 0;
 }
 
-bool knows_temperature(const Material& material) {
-  return std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
-}
-
 void check_temperature(const Values& section, const Material& material, Problems& problems) {
   if (!section.given(initial_temperature) || material.name.empty() || knows_temperature(material)) return;
   problems.add(section.path_to(initial_temperature),
