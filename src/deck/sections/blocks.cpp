@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "deck/laws/laws.hpp"
 #include "deck/sections/several_sections.hpp"
 
 namespace strut::deck {
@@ -87,7 +88,7 @@ bool asks_for_temperature(const DamageModel& model) {
 }
 
 void check_temperature(const Values& section, const Material& material, Problems& problems) {
-  if (!section.given(initial_temperature) || material.name.empty() || knows_temperature(material)) return;
+  if (!section.given(initial_temperature) || material.name.empty() || knows_temperature(material.law)) return;
   problems.add(section.path_to(initial_temperature),
                "given, but material '" + material.name +
                    "' does not depend on it; expected one with Softening, another Flow Stress, Heating, an Equation of "
@@ -158,7 +159,7 @@ void check_damage_model(const Values& section, const Material& material, const N
         "material '" + material.name + "' cannot crack by model '" + named.name +
             "': expected the Material Model 'Elastic Correspondence' with Formulation 'Quadratic Correspondence'");
   }
-  if (is_known && asks_for_temperature(model) && !knows_temperature(material)) {
+  if (is_known && asks_for_temperature(model) && !knows_temperature(material.law)) {
     problems.add(section.path_to(damage_model),
                  "'" + named.name + "' has D5, but material '" + material.name +
                      "' does not know its temperature; expected one that does, or no D5");

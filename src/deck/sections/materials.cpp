@@ -8,10 +8,6 @@
 
 namespace strut::deck {
 
-bool knows_temperature(const Material& material) {
-  return std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
-}
-
 namespace {
 
 const char* const name = "Materials";
@@ -106,7 +102,7 @@ Key model() {
 
 void read_expansion(const Values& values, Material& material, Problems& problems) {
   material.thermal_expansion = values[thermal_expansion];
-  if (material.thermal_expansion == 0 || !knows_temperature(material)) return;
+  if (material.thermal_expansion == 0 || !knows_temperature(material.law)) return;
   problems.add(values.path_to(thermal_expansion),
                "given, but this metal's temperature follows from its flow, by which it does not expand; expected none, "
                "or no Softening, other Flow Stress, Heating, Equation of State and Shear Modulus Slope");

@@ -26,9 +26,6 @@ struct Material {
   double thermal_expansion = 0;  // α, 1/K, by a prescribed temperature
 };
 
-// True if its points have a temperature that follows from their flow.
-bool knows_temperature(const Material& material);
-
 Section materials_section();
 std::vector<Material> read_materials(const Values& deck, Problems& problems);
 
