@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "advice/checks.hpp"
@@ -15,14 +14,10 @@ namespace {
 // The numbers of all points, distributed so that equal numbers are on one rank, and sorted there.
 std::vector<std::int64_t> dealt_by_number(const Domain& domain) {
   const Communicator& ranks = domain.communicator;
-  const auto rank_of = [&ranks](std::int64_t number) {
-    return static_cast<int>(static_cast<std::uint64_t>(number) % static_cast<std::uint64_t>(ranks.size()));
-  };
-  std::vector<std::int64_t> numbers(domain.cloud.element_ids.begin(), domain.cloud.element_ids.begin() + domain.owned);
-  std::ranges::stable_sort(numbers, {}, rank_of);
-  std::vector<std::int64_t> to_ranks(ranks.size(), 0);
-  for (const std::int64_t number : numbers) ++to_ranks[rank_of(number)];
-  numbers = exchange(ranks, std::span<const std::int64_t>(numbers), to_ranks, counts_from_ranks(ranks, to_ranks));
+  std::vector<int> owners;
+  for (const std::int64_t number : domain.cloud.element_ids)
+    owners.push_back(static_cast<int>(static_cast<std::uint64_t>(number) % static_cast<std::uint64_t>(ranks.size())));
+  std::vector<std::int64_t> numbers = Routes(ranks, owners).there(domain.cloud.element_ids);
   std::ranges::sort(numbers);
   return numbers;
 }

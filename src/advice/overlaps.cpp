@@ -30,26 +30,23 @@ constexpr double touching = 1.01, overlapping = 0.99;  // of the reaches of both
 struct Grain {
   double place[3], volume;
   std::int64_t body;
+  Vector at() const { return Vector(place); }
 };
 
 // Collective. For each owned point the volume of its body within the horizon, itself included, bonded or not.
 std::vector<double> volumes_within_horizons(const Domain& domain) {
-  std::vector<Vector> places;
   std::vector<Grain> grains;
   Eigen::AlignedBox3d mine;
   double reach = 0;
   for (int i = 0; i < domain.owned; ++i) {
     const Vector X = domain.reference(i);
-    places.push_back(X);
     grains.push_back({{X[0], X[1], X[2]}, domain.volume(i), domain.body_of(i)});
     mine.extend(X);
     reach = std::max(reach, domain.horizon(i));
   }
   reach = domain.communicator.max(reach);
-  for (const Grain& one : from_nearby_ranks(mine, places, std::span<const Grain>(grains), reach, domain.communicator)) {
-    places.emplace_back(one.place[0], one.place[1], one.place[2]);
-    grains.push_back(one);
-  }
+  add_nearby(grains, mine, reach, domain.communicator);
+  const std::vector<Vector> places = places_of(grains);
   const CellGrid grid(places, reach);
   std::vector<double> volumes(domain.owned, 0);
   for (int i = 0; i < domain.owned; ++i) {
@@ -113,6 +110,8 @@ namespace {
 struct Element {
   double place[3], edge, moments[6];
   std::int64_t id, block, body, part, piece, is_whole, nodes[8];  // nodes: ascending; the last one is repeated
+
+  Vector at() const { return Vector(place); }
 
   // The distance from its point to its face in a direction of unit length, as reach_of_cell().
   double reach(const Vector& direction) const {
@@ -210,21 +209,16 @@ AtOtherParts at_other_parts(const Domain& domain, const deck::Deck& deck) {
   if (!has_pieces(domain, domain.communicator.sum(count))) return {};
   std::vector<int> points;
   std::vector<Element> elements = elements_of(domain, parts, points);
-  std::vector<Vector> places;
   Eigen::AlignedBox3d mine;
   double near = std::numeric_limits<double>::min();
   for (const Element& one : elements) {
-    places.emplace_back(one.place[0], one.place[1], one.place[2]);
-    mine.extend(places.back());
+    mine.extend(one.at());
     const double widest = std::sqrt(3 * (one.moments[0] + one.moments[1] + one.moments[2]));
     near = std::max({near, one.edge, 2 * touching * widest});
   }
   near = domain.communicator.max(near);
-  for (const Element& one :
-       from_nearby_ranks(mine, places, std::span<const Element>(elements), near, domain.communicator)) {
-    elements.push_back(one);
-    places.emplace_back(one.place[0], one.place[1], one.place[2]);
-  }
+  add_nearby(elements, mine, near, domain.communicator);
+  const std::vector<Vector> places = places_of(elements);
   const std::vector<std::string>& names = domain.cloud.block_names;
   const CellGrid grid(places, near);
   AtOtherParts found;

@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 #include <sstream>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -41,11 +40,7 @@ std::vector<Held> held_directions(const deck::Deck& deck, const PointCloud& clou
     const auto* motion = std::get_if<PrescribedMotion>(&condition.kind);
     const auto* plane = std::get_if<SymmetryPlane>(&condition.kind);
     if (!motion && !plane) continue;
-    const PointGroup group(cloud, condition.node_set, "Node Set");
-    std::vector<int> points;
-    for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
-      if (group.counts(cloud, i)) points.push_back(i);
-    }
+    std::vector<int> points = PointGroup(cloud, condition.node_set, "Node Set").points(cloud);
     const int c = static_cast<int>(place);
     if (plane) all.push_back({c, plane->normal, opposite, std::move(points), true, plane->point});
     for (const int axis : motion ? motion->components : std::vector<int>{})
@@ -185,17 +180,15 @@ void tell_scaled_ends(const Situation& situation, std::ostringstream& text) {
   const Body& body = situation.scene.body;
   // A rank without points has none.
   if (!body.domain.communicator.any(!body.mass_scale.empty())) return;
-  situation.scene.conditions.visit([&]<class One>(const One& one) {
-    if constexpr (std::is_same_v<One, NonReflectingEnd>) {
-      double most = 1;
-      for (const auto& drag : one.drags) most = std::max(most, body.mass_scale[drag.point]);
-      most = body.domain.communicator.max(most);
-      if (most <= tells) return;
-      const double back = std::pow((std::sqrt(most) - 1) / (std::sqrt(most) + 1), 2);
-      text << "WARNING: Mass Scaling gives points of a non-reflecting end up to " << most
-           << " times their inertia: where it does so around them, too, the end reflects " << 100 * back
-           << " % of a wave's energy; expected a smaller Mass Scaling dt\n";
-    }
+  situation.scene.conditions.visit([&](const NonReflectingEnd& end) {
+    double most = 1;
+    for (const auto& drag : end.drags) most = std::max(most, body.mass_scale[drag.point]);
+    most = body.domain.communicator.max(most);
+    if (most <= tells) return;
+    const double back = std::pow((std::sqrt(most) - 1) / (std::sqrt(most) + 1), 2);
+    text << "WARNING: Mass Scaling gives points of a non-reflecting end up to " << most
+         << " times their inertia: where it does so around them, too, the end reflects " << 100 * back
+         << " % of a wave's energy; expected a smaller Mass Scaling dt\n";
   });
 }
 

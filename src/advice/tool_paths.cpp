@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <type_traits>
 
 #include "advice/checks.hpp"
 #include "conditions/crossing.hpp"
@@ -62,11 +61,9 @@ bool goes_on(const OfTime& of_time, bool is_velocity, double start, double durat
 // Collective. True if a prescribed motion is not that of the start throughout the run.
 bool change_later(const Scene& scene, double start, double duration) {
   bool any = false;
-  scene.conditions.visit([&]<class One>(const One& one) {
-    if constexpr (std::is_same_v<One, PrescribedMotion>) {
-      at_corners(one.value, where(one.points, scene.body),
-                 [&](const OfTime& of_time) { any = any || !goes_on(of_time, one.is_velocity, start, duration); });
-    }
+  scene.conditions.visit([&](const PrescribedMotion& one) {
+    at_corners(one.value, where(one.points, scene.body),
+               [&](const OfTime& of_time) { any = any || !goes_on(of_time, one.is_velocity, start, duration); });
   });
   return any;
 }

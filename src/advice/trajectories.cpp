@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
-#include <type_traits>
 
 #include "setup/changes_in_time.hpp"
 #include "topology/bounding_box.hpp"
@@ -42,13 +41,6 @@ bool stay_apart(const Trajectory& low, const Trajectory& high, int axis) {
   return low.cells.max()[axis] + low.ways.max()[axis] < high.cells.min()[axis] + high.ways.min()[axis];
 }
 
-template <class Visit>
-void for_each_motion(const Conditions& conditions, const Visit& visit) {
-  conditions.visit([&]<class One>(const One& one) {
-    if constexpr (std::is_same_v<One, PrescribedMotion>) visit(one);
-  });
-}
-
 // Collective. The range of each point's displacements from its place at the start.
 std::vector<Eigen::AlignedBox3d> ways_of_points(const Scene& scene, const std::vector<Vector>& velocities, double start,
                                                 double duration) {
@@ -57,7 +49,7 @@ std::vector<Eigen::AlignedBox3d> ways_of_points(const Scene& scene, const std::v
   for (int i = 0; i < body.owned(); ++i) all[i].extend(Vector(duration * velocities[i]));
   std::vector<double> changes;
   bool any = false;
-  for_each_motion(scene.conditions, [&](const PrescribedMotion& one) {
+  scene.conditions.visit([&](const PrescribedMotion& one) {
     any = true;
     std::ranges::copy(changes_of(one.value, where(one.points, body), start, start + duration),
                       std::back_inserter(changes));
@@ -71,7 +63,7 @@ std::vector<Eigen::AlignedBox3d> ways_of_points(const Scene& scene, const std::v
   const std::vector<double> times = looks_at(std::move(changes), start, duration);
   for (std::size_t k = 1; k < times.size(); ++k) {
     move_on(scene.conditions, body.domain, times[k], times[k] - times[k - 1], ways);
-    for_each_motion(scene.conditions, [&](const PrescribedMotion& one) {
+    scene.conditions.visit([&](const PrescribedMotion& one) {
       for (const int i : one.points) {
         const Vector way = ways[i] - body.displacement(i);
         for (const int c : one.components) {
@@ -148,7 +140,7 @@ Tensor axes_along(const Vector& direction) {
 }  // namespace
 
 void move_on(const Conditions& conditions, const Domain& domain, double time, double step, std::vector<Vector>& ways) {
-  for_each_motion(conditions, [&](const PrescribedMotion& one) {
+  conditions.visit([&](const PrescribedMotion& one) {
     for (const int i : one.points) {
       const Vector X = domain.reference(i);
       const double value = one.value.evaluate(X, one.is_velocity ? time - 0.5 * step : time);

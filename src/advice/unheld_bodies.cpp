@@ -158,10 +158,8 @@ void hold(const Scene& scene, double start, double step, Pieces& pieces) {
   }
   hold_by_images(domain, pieces);
   hold_by_tools(scene, start, pieces);
-  scene.conditions.visit([&]<class One>(const One& one) {
-    if constexpr (std::is_same_v<One, BodyForce>) {
-      for (const int i : one.points) ++pieces.all[pieces.of[i]].loaded;
-    }
+  scene.conditions.visit([&](const BodyForce& one) {
+    for (const int i : one.points) ++pieces.all[pieces.of[i]].loaded;
   });
   sum(domain.communicator, pieces.all, [](Piece& piece) { return piece.holds.reshaped(); });
   sum(domain.communicator, pieces.all, [](Piece& piece) { return std::span(&piece.loaded, 1); });

@@ -225,16 +225,16 @@ bool may_be_stopped(const Scene& scene, const std::vector<contact::Interaction>&
 
 // True if a prescribed motion or a load may end before they meet.
 bool may_be_spared(const Body& body, const Conditions& conditions, int a, int b) {
-  double driven = 0;
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (std::is_same_v<Type, PrescribedMotion> || std::is_same_v<Type, BodyForce>) {
-      for (const int i : one.points) {
-        const int block = body.domain.cloud.blocks[i];
-        if (block == a || block == b) driven = 1;
-      }
+  bool driven = false;
+  const auto look = [&](const std::vector<int>& points) {
+    for (const int i : points) {
+      const int block = body.domain.cloud.blocks[i];
+      driven = driven || block == a || block == b;
     }
-  });
-  return body.domain.communicator.max(driven) > 0;
+  };
+  conditions.visit([&](const PrescribedMotion& one) { look(one.points); });
+  conditions.visit([&](const BodyForce& one) { look(one.points); });
+  return body.domain.communicator.any(driven);
 }
 
 // For parts of one body, which may be pressed on each other at any time: contact must withstand the flow stress of the

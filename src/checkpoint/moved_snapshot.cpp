@@ -4,81 +4,58 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "topology/nearby_ranks.hpp"
+#include "base/parallel/gather_scatter.hpp"
 
 namespace strut {
 
 namespace {
 
-// Width of a record for the points of a group: the id, then all columns.
-int record_width(const Snapshot::Group& group) {
-  int width = 1;
-  for (const Snapshot::Column& column : group.columns) width += column.width;
-  return width;
-}
-
-struct Outgoing {
-  std::vector<int> ranks;
-  std::vector<double> records;
-};
-
-Outgoing leaving(const Snapshot::Group& group, const RanksOfPoints& ranks) {
-  Outgoing outgoing;
-  for (const std::int64_t id : group.ids) {
-    outgoing.ranks.push_back(std::lower_bound(ranks.begin(), ranks.end(), std::pair(id, -1))->second);
-  }
-  std::vector<std::size_t> order(group.ids.size());
+// The places of some points among those that have come, by their ids.
+std::vector<std::size_t> places_of(const std::vector<std::int64_t>& ids, const std::vector<std::int64_t>& arrived,
+                                   const std::string& group) {
+  std::vector<std::size_t> order(arrived.size()), places;
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return outgoing.ranks[k]; });
-  outgoing.records.reserve(order.size() * record_width(group));
-  for (const std::size_t k : order) {
-    outgoing.records.push_back(static_cast<double>(group.ids[k]));
-    for (const Snapshot::Column& column : group.columns) {
-      const auto row = column.values.begin() + static_cast<std::ptrdiff_t>(k * column.width);
-      outgoing.records.insert(outgoing.records.end(), row, row + column.width);
-    }
+  const auto id_of = [&](std::size_t k) { return arrived[k]; };
+  std::ranges::sort(order, {}, id_of);
+  for (const std::int64_t id : ids) {
+    const auto place = std::ranges::lower_bound(order, id, {}, id_of);
+    if (place == order.end() || arrived[*place] != id) throw std::logic_error("a point has not come: " + group);
+    places.push_back(*place);
   }
-  std::ranges::sort(outgoing.ranks);
-  return outgoing;
-}
-
-// The position of each received record, by id.
-std::vector<std::pair<std::int64_t, std::size_t>> places_by_id(const std::vector<double>& records, int width) {
-  std::vector<std::pair<std::int64_t, std::size_t>> places;
-  for (std::size_t at = 0; at < records.size(); at += width) {
-    places.emplace_back(static_cast<std::int64_t>(records[at]), at);
-  }
-  std::ranges::sort(places);
   return places;
 }
 
-void take(const std::vector<double>& records, Snapshot::Group& group) {
-  const auto places = places_by_id(records, record_width(group));
-  for (std::size_t k = 0; k < group.ids.size(); ++k) {
-    const auto place = std::ranges::lower_bound(places, std::pair(group.ids[k], std::size_t{0}));
-    if (place == places.end() || place->first != group.ids[k])
-      throw std::logic_error("a point has not come: " + group.name);
-    auto value = records.begin() + static_cast<std::ptrdiff_t>(place->second) + 1;
-    for (Snapshot::Column& column : group.columns) {
-      std::copy_n(value, column.width, column.values.begin() + static_cast<std::ptrdiff_t>(k * column.width));
-      value += column.width;
+// Sends a number of each point at a time, so that what travels is small beside what a run has.
+void move_group(const Snapshot::Group& from, const RanksOfPoints& ranks, Snapshot::Group& to,
+                const Communicator& communicator) {
+  std::vector<int> targets;
+  for (const std::int64_t id : from.ids) targets.push_back(std::ranges::lower_bound(ranks, std::pair(id, -1))->second);
+  const Routes routes(communicator, targets);
+  const std::vector<std::size_t> places = places_of(to.ids, routes.there(from.ids), to.name);
+  for (std::size_t column = 0; column < to.columns.size(); ++column) {
+    const std::vector<double>& values = from.columns[column].values;
+    const std::size_t width = to.columns[column].width;
+    for (std::size_t c = 0; c < width; ++c) {
+      const std::vector<double> arrived = routes.there([&](int k) { return values[k * width + c]; });
+      for (std::size_t k = 0; k < places.size(); ++k) to.columns[column].values[k * width + c] = arrived[places[k]];
     }
   }
 }
 
 }  // namespace
 
-void move_snapshot(Snapshot from, const RanksOfPoints& ranks, Snapshot& to, const Communicator& communicator) {
+void move_snapshot(const Snapshot& from, const RanksOfPoints& ranks, Snapshot& to, const Communicator& communicator) {
   to.numbers = from.numbers;
   to.shares = from.shares;
+  const auto same = [](const Snapshot::Column& one, const Snapshot::Column& other) {
+    return one.name == other.name && one.width == other.width;
+  };
   for (std::size_t g = 0; g < to.groups.size(); ++g) {
-    const int width = record_width(to.groups[g]);
-    if (from.groups.at(g).name != to.groups[g].name || record_width(from.groups[g]) != width) {
+    if (from.groups.at(g).name != to.groups[g].name ||
+        !std::ranges::equal(from.groups[g].columns, to.groups[g].columns, same)) {
       throw std::logic_error("another partition keeps other things of points: " + to.groups[g].name);
     }
-    const Outgoing outgoing = leaving(from.groups[g], ranks);
-    from.groups[g] = {};  // frees memory: the points are the largest part of a run, and three copies of them exist here
-    take(sent_to_ranks(outgoing.ranks, outgoing.records, width, communicator), to.groups[g]);
+    move_group(from.groups[g], ranks, to.groups[g], communicator);
   }
 }
 

@@ -16,6 +16,6 @@ using RanksOfPoints = std::vector<std::pair<std::int64_t, int>>;
 
 // Collective. Fills `to`, a snapshot of the same run on the new partition, with the values of `from`, on the old one.
 // Each rank keeps its own sums (Snapshot::shares).
-void move_snapshot(Snapshot from, const RanksOfPoints& ranks, Snapshot& to, const Communicator& communicator);
+void move_snapshot(const Snapshot& from, const RanksOfPoints& ranks, Snapshot& to, const Communicator& communicator);
 
 }  // namespace strut

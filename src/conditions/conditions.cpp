@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <type_traits>
 
 #include "base/errors.hpp"
 
@@ -12,12 +11,6 @@ namespace {
 
 Stage stage_of(const Condition& condition) {
   return std::visit([]<class Type>(const Type&) { return Type::stage; }, condition);
-}
-
-void take_turn(ChangesVelocities auto& condition, VelocityUpdate& update) {
-  update.ledger_entry = condition.ledger_entry;
-  update.reaction_place = condition.reaction_place;
-  condition.change_velocities(update);
 }
 
 }  // namespace
@@ -53,61 +46,49 @@ bool depend_on_time(const Conditions& conditions, Stage stage) {
 }
 
 void add_forces(const Conditions& conditions, double t, Body& body) {
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (Type::stage == Stage::forces) one.add_forces(t, body);
-  });
+  conditions.visit([&](const AddsForces auto& one) { one.add_forces(t, body); });
 }
 
 void add_work_of_forces(const Conditions& conditions, double t, double impulse_time, const Body& body,
                         ImpulseWork& work) {
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (Type::stage == Stage::forces) one.add_work(t, impulse_time, body, work);
-  });
+  conditions.visit([&](const AddsForces auto& one) { one.add_work(t, impulse_time, body, work); });
 }
 
 void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body, ImpulseWork& work,
                        ReactionImpulses& impulses) {
   VelocityUpdate update{t, steps, body, impulses};
   if (conditions.has_friction_beside_motions()) update.held.assign(body.owned(), 0);
-  conditions.visit([&]<class Type>(Type& one) {
-    if constexpr (Type::stage != Stage::forces) take_turn(one, update);
+  conditions.visit([&](ChangesVelocities auto& one) {
+    update.ledger_entry = one.ledger_entry;
+    update.reaction_place = one.reaction_place;
+    one.change_velocities(update);
   });
   add_work(update, work);
 }
 
 Conditions in_substeps(const Conditions& conditions, const MovingPoints& moving) {
   Conditions some;
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (Type::stage != Stage::forces) {
-      if (std::optional<Type> part = one.in_substeps(moving)) some.add(std::move(*part));
-    }
+  conditions.visit([&](const ChangesVelocities auto& one) {
+    if (auto part = one.in_substeps(moving)) some.add(std::move(*part));
   });
   return some;
 }
 
 std::vector<Vector> predicted_velocities(const Conditions& conditions, double t, double moment, const Body& body) {
   std::vector<Vector> velocities = body.velocity;
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (Type::stage != Stage::forces) {
-      if constexpr (Type::acts_at_start) one.predict_velocities(t, moment, body, velocities);
-    }
-  });
+  conditions.visit([&](const PredictsVelocities auto& one) { one.predict_velocities(t, moment, body, velocities); });
   return velocities;
 }
 
 void check_equilibria_possible(const Conditions& conditions) {
-  conditions.visit([]<class Type>(const Type&) {
-    if constexpr (Type::in_equilibria == InEquilibria::impossible) throw Error(Type::why_not_in_equilibria);
-  });
+  conditions.visit([](const SaysWhyNotInEquilibria auto& one) { throw Error(one.why_not_in_equilibria); });
 }
 
 std::vector<HeldDirection> held_directions(const Conditions& conditions, const Body& body, double t, double dt) {
   std::vector<HeldDirection> all;
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (Type::in_equilibria == InEquilibria::hold) {
-      const std::vector<HeldDirection> more = one.held_directions(body, t, dt);
-      all.insert(all.end(), more.begin(), more.end());
-    }
+  conditions.visit([&](const HoldsDirections auto& one) {
+    const std::vector<HeldDirection> more = one.held_directions(body, t, dt);
+    all.insert(all.end(), more.begin(), more.end());
   });
   return all;
 }
@@ -122,9 +103,7 @@ namespace {
 
 template <class Work>
 void for_each_tool(Conditions& conditions, const Work& work) {  // work(tool, its name in checkpoints)
-  conditions.visit([&]<class Type>(Type& one) {
-    if constexpr (Type::in_equilibria == InEquilibria::tool) work(one, "tool_" + std::to_string(one.reaction_place));
-  });
+  conditions.visit([&](RigidTool& tool) { work(tool, "tool_" + std::to_string(tool.reaction_place)); });
 }
 
 }  // namespace
@@ -148,9 +127,7 @@ void keep_reaches(const Conditions& before, Conditions& now) {
 
 std::vector<RigidTool> tools_of(const Conditions& conditions) {
   std::vector<RigidTool> tools;
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (Type::in_equilibria == InEquilibria::tool) tools.push_back(one);
-  });
+  conditions.visit([&](const RigidTool& tool) { tools.push_back(tool); });
   return tools;
 }
 

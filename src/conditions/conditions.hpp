@@ -2,6 +2,7 @@
 // does not distinguish types of conditions; each type defines its own behavior (condition_type.hpp).
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -13,6 +14,16 @@
 
 namespace strut {
 
+// True if a visitor takes one of these types.
+template <class Visit, class... Types>
+constexpr bool takes_any(std::variant<Types...>*) {
+  return (std::invocable<const Visit&, Types&> || ...);
+}
+template <class Visit, class... Types>
+constexpr bool takes_any(const std::variant<Types...>*) {
+  return (std::invocable<const Visit&, const Types&> || ...);
+}
+
 class Conditions {
  public:
   // Adds a condition; it acts after all of earlier stages, and after those of its own stage added so far.
@@ -22,14 +33,14 @@ class Conditions {
   // True if a rigid tool has friction and points have a prescribed motion.
   bool has_friction_beside_motions() const { return has_friction_ && has_motions_; }
 
-  // Visits the conditions in the order in which they act.
+  // Visits the conditions of the types that `visit` takes, in the order in which they act.
   template <class Visit>
   void visit(const Visit& visit) const {
-    for (const Condition& one : in_order_) std::visit(visit, one);
+    pass_each(in_order_, visit);
   }
   template <class Visit>
   void visit(const Visit& visit) {
-    for (Condition& one : in_order_) std::visit(visit, one);
+    pass_each(in_order_, visit);
   }
 
   // The first value on this rank so far that was not finite: its path in the deck, time and position; "" if there is
@@ -37,6 +48,15 @@ class Conditions {
   std::string first_not_finite() const;
 
  private:
+  template <class All, class Visit>
+  static void pass_each(All& all, const Visit& visit) {
+    static_assert(takes_any<Visit>(decltype(all.data())()), "it takes no condition");
+    const auto pass = [&visit]<class Type>(Type& one) {
+      if constexpr (std::invocable<const Visit&, Type&>) visit(one);
+    };
+    for (auto& one : all) std::visit(pass, one);
+  }
+
   std::vector<Condition> in_order_;
   bool has_friction_ = false, has_motions_ = false;
   std::vector<Function> expressions_;

@@ -20,21 +20,24 @@ int slice_owner(std::int64_t total, int ranks, std::int64_t number) {
   return static_cast<int>(((number + 1) * ranks - 1) / total);
 }
 
-Slices::Slices(const Communicator& communicator, std::span<const std::int64_t> ids, std::int64_t total)
-    : communicator_(communicator), leaving_(ids.size()), to_ranks_(static_cast<std::size_t>(communicator.size()), 0) {
+namespace {
+
+std::vector<int> owners_of(std::span<const std::int64_t> ids, std::int64_t total, const Communicator& communicator) {
   if (total == 0) {
     const std::int64_t largest = ids.empty() ? -1 : *std::max_element(ids.begin(), ids.end());
     total = 1 + static_cast<std::int64_t>(communicator.max(static_cast<double>(largest)));
   }
-  std::iota(leaving_.begin(), leaving_.end(), 0);
-  std::sort(leaving_.begin(), leaving_.end(),
-            [&ids](int a, int b) { return ids[static_cast<std::size_t>(a)] < ids[static_cast<std::size_t>(b)]; });
-  for (const std::int64_t id : ids) {
-    ++to_ranks_[static_cast<std::size_t>(slice_owner(total, communicator.size(), id))];
-  }
-  from_ranks_ = counts_from_ranks(communicator, to_ranks_);
-  const std::vector<std::int64_t> arrived =
-      exchange<std::int64_t>(communicator, picked(ids, leaving_, 1, 0), to_ranks_, from_ranks_);
+  std::vector<int> owners;
+  owners.reserve(ids.size());
+  for (const std::int64_t id : ids) owners.push_back(slice_owner(total, communicator.size(), id));
+  return owners;
+}
+
+}  // namespace
+
+Slices::Slices(const Communicator& communicator, std::span<const std::int64_t> ids, std::int64_t total)
+    : communicator_(communicator), routes_(communicator, owners_of(ids, total, communicator)) {
+  const std::vector<std::int64_t> arrived = routes_.there([&ids](int k) { return ids[k]; });
   ids_ = arrived;
   std::sort(ids_.begin(), ids_.end());
   ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
@@ -42,8 +45,7 @@ Slices::Slices(const Communicator& communicator, std::span<const std::int64_t> i
   for (const std::int64_t id : arrived) {
     places_.push_back(static_cast<int>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin()));
   }
-  const auto own = static_cast<std::int64_t>(ids_.size());
-  counts_ = counts_from_ranks(communicator, std::vector<std::int64_t>(to_ranks_.size(), own));
+  counts_ = counts_from_ranks(communicator, std::vector<std::int64_t>(communicator.size(), std::ssize(ids_)));
 }
 
 std::int64_t Slices::first() const {

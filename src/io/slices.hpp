@@ -35,51 +35,41 @@ class Slices {
   // the items of the slice. If several ranks have the same item, they must give the same value.
   template <class T>
   std::vector<T> to_slices(std::span<const T> values, int width = 1, int component = 0) const {
+    const std::vector<T> arrived = routes_.there([&](int k) { return values[place_of(k, width, component)]; });
     std::vector<T> result(ids_.size());
-    place<T>(arriving(values, width, component), places_, result, 1, 0);
+    for (std::size_t n = 0; n < places_.size(); ++n) result[places_[n]] = arrived[n];
     return result;
   }
   // Collective. All components, one at a time, so that messages are small compared with the data.
   template <class T>
   std::vector<T> rows_to_slices(std::span<const T> values, int width) const {
     std::vector<T> result(ids_.size() * static_cast<std::size_t>(width));
-    for (int c = 0; c < width; ++c) place<T>(arriving(values, width, c), places_, result, width, c);
+    for (int c = 0; c < width; ++c) put(to_slices(values, width, c), width, c, std::span(result));
     return result;
   }
   // Collective. The opposite direction; `result` has `width` values for each item of this rank.
   template <class T>
   void rows_from_slices(std::span<const T> values, int width, std::span<T> result) const {
     for (int c = 0; c < width; ++c) {
-      place<T>(exchange<T>(communicator_, picked(values, places_, width, c), from_ranks_, to_ranks_), leaving_, result,
-               width, c);
+      std::vector<T> answers;
+      answers.reserve(places_.size());
+      for (const int row : places_) answers.push_back(values[place_of(row, width, c)]);
+      put(routes_.back(answers), width, c, result);
     }
   }
 
  private:
-  template <class T>
-  std::vector<T> arriving(std::span<const T> values, int width, int component) const {
-    return exchange<T>(communicator_, picked(values, leaving_, width, component), to_ranks_, from_ranks_);
-  }
   static std::size_t place_of(int row, int width, int component) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(component);
   }
   template <class T>
-  static std::vector<T> picked(std::span<const T> values, const std::vector<int>& rows, int width, int component) {
-    std::vector<T> result;
-    result.reserve(rows.size());
-    for (const int row : rows) result.push_back(values[place_of(row, width, component)]);
-    return result;
-  }
-  template <class T>
-  static void place(const std::vector<T>& values, const std::vector<int>& rows, std::span<T> result, int width,
-                    int component) {
-    for (std::size_t k = 0; k < rows.size(); ++k) result[place_of(rows[k], width, component)] = values[k];
+  static void put(const std::vector<T>& column, int width, int component, std::span<T> rows) {
+    for (int k = 0; k < std::ssize(column); ++k) rows[place_of(k, width, component)] = column[k];
   }
 
   Communicator communicator_;
-  std::vector<int> leaving_;                         // this rank's items, in the order of sending
-  std::vector<int> places_;                          // indices in the slice of received items
-  std::vector<std::int64_t> to_ranks_, from_ranks_;  // numbers of items
+  Routes routes_;            // of this rank's items to their slices
+  std::vector<int> places_;  // indices in the slice of received items
   std::vector<std::int64_t> ids_, counts_;
 };
 

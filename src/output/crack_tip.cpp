@@ -12,7 +12,7 @@ CrackTip::CrackTip(const deck::WatchedCrack& crack, const Body& body) : crack_(c
   if (!body.may_break()) throw Error(path + ": no bonds can break here; expected a block with a Damage Model");
   const PointCloud& cloud = body.domain.cloud;
   group_ = PointGroup(cloud, crack.node_set, path + " > Node Set");
-  if (body.domain.communicator.sum(group_.points(cloud)) > 0) return;
+  if (body.domain.communicator.sum(std::ssize(group_.points(cloud))) > 0) return;
   throw Error(path + " > Node Set: the node set or block holds no point");
 }
 

@@ -138,7 +138,7 @@ void check_reduction(const std::vector<Observable>& all, const std::vector<deck:
                      const std::string& where) {
   const std::string path = where + " > " + name;
   const Asked asked = asked_for(all, profiles, cloud, name, path);
-  if (Reduction::is_extreme(name) && communicator.sum(asked.group.points(cloud)) == 0)
+  if (Reduction::is_extreme(name) && communicator.sum(std::ssize(asked.group.points(cloud))) == 0)
     throw Error(path + ": the node set or block holds no point");
 }
 

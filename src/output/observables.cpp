@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "fracture/fragments.hpp"
+#include "io/exodus/exodus.hpp"
 #include "materials/state_variables.hpp"
 #include "mechanics/steepness.hpp"
 
@@ -281,14 +282,6 @@ std::vector<Observable> observables_of_all_laws() { return with_states(states_of
 
 namespace {
 
-// The names of components in Exodus files.
-std::vector<std::string> component_names(int components) {
-  if (components == 3) return {"X", "Y", "Z"};
-  if (components == 6) return {"XX", "YY", "ZZ", "XY", "YZ", "ZX"};
-  if (components == 9) return {"XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"};
-  return {};
-}
-
 const Observable* find(const std::vector<Observable>& all, const std::string& name) {
   const auto found = std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == name; });
   return found == all.end() ? nullptr : &*found;
@@ -321,7 +314,7 @@ std::optional<PointNumber> PointNumber::find(const std::vector<Observable>& all,
   const std::size_t bar = name.rfind('_');
   const Observable* of = bar == std::string::npos ? nullptr : strut::find(all, name.substr(0, bar));
   if (!of) return std::nullopt;
-  const std::vector<std::string> components = component_names(of->components);
+  const std::vector<std::string> components = io::component_names(of->components);
   const auto found = std::find(components.begin(), components.end(), name.substr(bar + 1));
   if (found == components.end()) return std::nullopt;
   return PointNumber{*of, static_cast<int>(found - components.begin())};
@@ -358,7 +351,7 @@ std::vector<std::string> names_of_numbers(const std::vector<Observable>& all,
   for (const std::string& prefix : prefixes) {
     for (const Observable& o : all) {
       names.push_back(prefix + o.name);
-      for (const std::string& component : component_names(o.components))
+      for (const std::string& component : io::component_names(o.components))
         names.push_back(prefix + o.name + "_" + component);
     }
   }

@@ -223,24 +223,22 @@ void Monitor::check_tools(double time, const Conditions& conditions, const std::
   if (told_[crossing]) return;
   const std::vector<Vector> places = present_places(body_.domain);
   std::size_t n = 0;
-  conditions.visit([&]<class One>(const One& one) {
-    if constexpr (std::is_same_v<One, RigidTool>) {
-      const std::string& name = tools[n++].name;
-      if (told_[crossing] || std::holds_alternative<HalfSpace>(one.shape)) return;
-      const auto found = find_crossing(one, time, body_.domain, places);
-      if (!found) return;
-      std::ostringstream text;
-      if (found->point >= 0) {
-        text << at(time) << "the tool '" << name
-             << "' stands between points that are bonded to each other: " << locate(body_, found->point)
-             << ". Tools stop points only, and one that is thinner than 1.5 spacings, or an edge of it, passes between "
-                "them"
-             << (steps == Steps::of_load ? ", as does one that goes too far in a load step; expected more load steps, "
-                                         : "; expected ")
-             << "a finer mesh or a thicker tool";
-      }
-      tell_once(crossing, text.str());
+  conditions.visit([&](const RigidTool& tool) {
+    const std::string& name = tools[n++].name;
+    if (told_[crossing] || std::holds_alternative<HalfSpace>(tool.shape)) return;
+    const auto found = find_crossing(tool, time, body_.domain, places);
+    if (!found) return;
+    std::ostringstream text;
+    if (found->point >= 0) {
+      text << at(time) << "the tool '" << name
+           << "' stands between points that are bonded to each other: " << locate(body_, found->point)
+           << ". Tools stop points only, and one that is thinner than 1.5 spacings, or an edge of it, passes between "
+              "them"
+           << (steps == Steps::of_load ? ", as does one that goes too far in a load step; expected more load steps, "
+                                       : "; expected ")
+           << "a finer mesh or a thicker tool";
     }
+    tell_once(crossing, text.str());
   });
 }
 

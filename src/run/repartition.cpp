@@ -58,7 +58,7 @@ void repartition(const ExplicitRun& run, const std::vector<int>& ranks) {
     throw LostState(error.what());
   }
   Snapshot here = saved(run, step, time);
-  move_snapshot(std::move(kept), where, here, run.scene->body.domain.communicator);
+  move_snapshot(kept, where, here, run.scene->body.domain.communicator);
   Archive archive = Archive::loading_from(here);
   run.solver->serialize(archive);
   run.writers->serialize(archive, step, time);

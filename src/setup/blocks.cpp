@@ -170,7 +170,6 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
   return bonds;
 }
 
-// The mean spacing of each block's points over all ranks, m; 0 if it has none.
 std::vector<double> mean_spacings(const PointCloud& cloud, const Communicator& communicator) {
   std::vector<double> sums(2 * cloud.block_names.size(), 0);  // sum of spacings and number of points for each block
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -183,7 +182,6 @@ std::vector<double> mean_spacings(const PointCloud& cloud, const Communicator& c
   return result;
 }
 
-// Reports horizons in m that are smaller than the spacing or very much larger: an error of units.
 void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
                     deck::Problems& problems) {
   for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {

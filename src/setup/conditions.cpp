@@ -21,12 +21,7 @@ namespace {
 
 // This rank's points of a node set, a block, or all; the name has been checked.
 std::vector<int> points_of(const PointCloud& cloud, const std::string& set) {
-  const PointGroup group(cloud, set, "Node Set");
-  std::vector<int> points;
-  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
-    if (group.counts(cloud, i)) points.push_back(i);
-  }
-  return points;
+  return PointGroup(cloud, set, "Node Set").points(cloud);
 }
 
 // The time of the body as it was read, and that at which the conditions begin, s.
@@ -58,9 +53,7 @@ void set_reaches(RigidTool& tool, const Times& times, const Body& body) {
 
 // For bodies that an Initial Displacement has moved out of a tool: at the positions of the mesh they may overlap it.
 void set_reaches_from_here(double t, Scene& scene) {
-  scene.conditions.visit([&]<class Type>(Type& one) {
-    if constexpr (std::is_same_v<Type, RigidTool>) one.set_reaches(t, scene.body, BodyAt::present);
-  });
+  scene.conditions.visit([&](RigidTool& tool) { tool.set_reaches(t, scene.body, BodyAt::present); });
 }
 
 template <ConditionType Type>
@@ -220,7 +213,7 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
   for (const deck::Condition& condition : deck.conditions) {
     try {
       const PointGroup group(cloud, condition.node_set, path(condition));
-      counts.push_back(static_cast<double>(group.points(cloud)));
+      counts.push_back(static_cast<double>(group.points(cloud).size()));
       known.push_back(&condition);
     } catch (const Error& error) {
       problems.add(error.what());
@@ -298,11 +291,9 @@ void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::functi
     scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   auto of_scene = scene.tools.begin();
-  scene.conditions.visit([&]<class Type>(Type& one) {
-    if constexpr (std::is_same_v<Type, RigidTool>) {
-      of_scene->is_resumed = knows_reaches(one.reaction_place);
-      if (!of_scene++->is_resumed) one.set_reaches(t, scene.body, BodyAt::present);
-    }
+  scene.conditions.visit([&](RigidTool& tool) {
+    of_scene->is_resumed = knows_reaches(tool.reaction_place);
+    if (!of_scene++->is_resumed) tool.set_reaches(t, scene.body, BodyAt::present);
   });
 }
 

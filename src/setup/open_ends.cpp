@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <type_traits>
 
 #include "setup/found_points.hpp"
 #include "topology/cell_edges.hpp"
@@ -53,15 +52,13 @@ struct EndsOfPoint {
 
 std::map<int, EndsOfPoint> ends_of(const Conditions& conditions, const Body& body) {
   std::map<int, EndsOfPoint> ends;
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (std::is_same_v<Type, NonReflectingEnd>) {
-      for (const NonReflectingEnd::Drag& drag : one.drags) {
-        const Extent extent = extent_along(one.normal, body.domain, drag.point);
-        EndsOfPoint& of_point = ends[drag.point];
-        of_point.inside.push_back(extent.is_inside());
-        of_point.normals.push_back(extent.sum > 0 ? Vector(-one.normal) : one.normal);
-        of_point.places.push_back(one.place);
-      }
+  conditions.visit([&](const NonReflectingEnd& end) {
+    for (const NonReflectingEnd::Drag& drag : end.drags) {
+      const Extent extent = extent_along(end.normal, body.domain, drag.point);
+      EndsOfPoint& of_point = ends[drag.point];
+      of_point.inside.push_back(extent.is_inside());
+      of_point.normals.push_back(extent.sum > 0 ? Vector(-end.normal) : end.normal);
+      of_point.places.push_back(end.place);
     }
   });
   return ends;

@@ -7,19 +7,18 @@
 #include <vector>
 
 #include "base/parallel/gather_scatter.hpp"
-#include "topology/nearby_ranks.hpp"
 
 namespace strut {
 
 namespace {
 
-// A point, as it is sent to other ranks, in doubles.
+// A point, as it is sent to other ranks.
 struct Record {
   double x[3];
   double edge;  // of a cube of its volume, m
-  double id, number, block;
+  std::int64_t id, number;
+  int block;
 };
-constexpr int width_of_record = sizeof(Record) / sizeof(double);
 
 // Unbounded cubic cells, identified by hashes that are almost unique. A cell has its points and those so near to it
 // that one of its points might coincide with them.
@@ -69,11 +68,8 @@ std::vector<Record> records_of(const PointCloud& cloud) {
   records.reserve(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Vector& X = cloud.positions[i];
-    records.push_back({{X[0], X[1], X[2]},
-                       std::cbrt(cloud.volumes[i]),
-                       static_cast<double>(cloud.ids[i]),
-                       static_cast<double>(cloud.element_ids[i]),
-                       static_cast<double>(cloud.blocks[i])});
+    records.push_back(
+        {{X[0], X[1], X[2]}, std::cbrt(cloud.volumes[i]), cloud.ids[i], cloud.element_ids[i], cloud.blocks[i]});
   }
   return records;
 }
@@ -82,26 +78,17 @@ std::vector<Record> records_of(const PointCloud& cloud) {
 std::vector<Record> sent_to_owners(const std::vector<Record>& records, const Cells& cells,
                                    const Communicator& communicator) {
   const auto ranks = static_cast<std::uint64_t>(communicator.size());
-  std::vector<std::pair<int, std::size_t>> leaving;
+  std::vector<int> to;
+  std::vector<std::size_t> leaving;
   for (std::size_t i = 0; i < records.size(); ++i) {
-    const std::size_t before = leaving.size();
+    const auto before = std::ssize(to);
     cells.visit_cells(records[i], [&](std::uint64_t cell, bool) {
-      const std::pair<int, std::size_t> one{static_cast<int>(cell % ranks), i};
-      if (std::find(leaving.begin() + static_cast<std::ptrdiff_t>(before), leaving.end(), one) == leaving.end())
-        leaving.push_back(one);
+      const int rank = static_cast<int>(cell % ranks);
+      if (std::find(to.begin() + before, to.end(), rank) != to.end()) return;
+      to.push_back(rank), leaving.push_back(i);
     });
   }
-  std::sort(leaving.begin(), leaving.end());
-  std::vector<int> to;
-  std::vector<double> numbers;
-  for (const auto& [rank, i] : leaving) {
-    to.push_back(rank);
-    const auto* first = reinterpret_cast<const double*>(&records[i]);
-    numbers.insert(numbers.end(), first, first + width_of_record);
-  }
-  const std::vector<double> come = sent_to_ranks(to, numbers, width_of_record, communicator);
-  const auto* first = reinterpret_cast<const Record*>(come.data());
-  return {first, first + come.size() / width_of_record};
+  return Routes(communicator, to).there([&](int k) { return records[leaving[k]]; });
 }
 
 struct Entry {
@@ -126,8 +113,7 @@ void look_through(std::span<const Entry> cell, const std::vector<Record>& points
     if (!one.at_home) continue;
     for (const Entry& other : cell) {
       const Record& a = points[other.point];
-      if (!(a.id < b.id) || !cells.at_one(a, b) || allowed(static_cast<int>(a.block), static_cast<int>(b.block)))
-        continue;
+      if (!(a.id < b.id) || !cells.at_one(a, b) || allowed(a.block, b.block)) continue;
       ++found.points;
       if (!found.pair || b.id < found.pair->second.id) found.pair = Pair{a, b};
       break;  // if all points coincide there is no need to test all pairs
@@ -160,8 +146,7 @@ Found found_on_this_rank(const std::vector<Record>& points, const Cells& cells, 
 std::string told(const PointCloud& cloud, const Pair& pair, std::int64_t count) {
   const auto name = [&](const Record& one) {
     std::ostringstream text;
-    text << word(cloud.at) << " " << static_cast<std::int64_t>(one.number) << " of block '"
-         << cloud.block_names[static_cast<std::size_t>(one.block)] << "'";
+    text << word(cloud.at) << " " << one.number << " of block '" << cloud.block_names[one.block] << "'";
     return text.str();
   };
   const auto& [a, b] = pair;

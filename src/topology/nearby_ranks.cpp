@@ -2,18 +2,9 @@
 
 #include <algorithm>
 
-#include "base/parallel/communicator.hpp"
-#include "base/parallel/gather_scatter.hpp"
 #include "topology/bounding_box.hpp"
 
 namespace strut {
-
-std::vector<double> sent_to_ranks(std::span<const int> ranks, std::span<const double> records, int width,
-                                  const Communicator& communicator) {
-  std::vector<std::int64_t> to_ranks(static_cast<std::size_t>(communicator.size()), 0);
-  for (const int rank : ranks) to_ranks[static_cast<std::size_t>(rank)] += width;
-  return exchange(communicator, records, to_ranks, counts_from_ranks(communicator, to_ranks));
-}
 
 namespace {
 
@@ -76,19 +67,10 @@ NearbyRanks nearby_ranks(std::span<const Eigen::AlignedBox3d> boxes, int this_ra
   return found;
 }
 
-std::vector<double> doubles_from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,
-                                              std::span<const double> records, int width, double reach,
-                                              const Communicator& communicator) {
+NearbyRanks nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places, double reach,
+                         const Communicator& communicator) {
   if (communicator.size() == 1) return {};
-  const auto boxes = boxes_of_all(box, communicator);
-  const NearbyRanks targets = nearby_ranks(boxes, communicator.rank(), places, reach);
-  std::vector<double> outgoing;
-  outgoing.reserve(targets.places.size() * width);
-  for (const int k : targets.places) {
-    const auto record = records.subspan(static_cast<std::size_t>(k) * width, width);
-    outgoing.insert(outgoing.end(), record.begin(), record.end());
-  }
-  return sent_to_ranks(targets.ranks, outgoing, width, communicator);
+  return nearby_ranks(boxes_of_all(box, communicator), communicator.rank(), places, reach);
 }
 
 }  // namespace strut

@@ -3,20 +3,13 @@
 
 #include <cstdint>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include "base/math/tensors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/gather_scatter.hpp"
 
 namespace strut {
-
-class Communicator;
-
-// Collective. `width` doubles per record; the k-th one goes to ranks[k], which ascend. Returns the records received by
-// this rank, also from itself, in the order of the ranks that sent them.
-std::vector<double> sent_to_ranks(std::span<const int> ranks, std::span<const double> records, int width,
-                                  const Communicator& communicator);
 
 // places[k] goes to ranks[k], in the order of ranks, and within each rank in the order of positions.
 struct NearbyRanks {
@@ -29,23 +22,17 @@ struct NearbyRanks {
 NearbyRanks nearby_ranks(std::span<const Eigen::AlignedBox3d> boxes, int this_rank, std::span<const Vector> places,
                          double reach);
 
-// `width` doubles per position. Used by the template below.
-std::vector<double> doubles_from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,
-                                              std::span<const double> records, int width, double reach,
-                                              const Communicator& communicator);
+// Collective. The same for the box of this rank. All ranks get all boxes, which is fine up to some thousand ranks.
+NearbyRanks nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places, double reach,
+                         const Communicator& communicator);
 
 // Collective. records[k] belongs to the point at places[k]. Sends every other rank the records of positions within
-// `reach` (m) of that rank's `box`; returns the records received, in the order of ranks. All ranks get all boxes, which
-// is fine up to some thousand ranks.
+// `reach` (m) of that rank's `box`; returns the records received, in the order of ranks.
 template <class Record>
 std::vector<Record> from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,
                                       std::span<const Record> records, double reach, const Communicator& communicator) {
-  static_assert(std::is_trivially_copyable_v<Record> && sizeof(Record) % sizeof(double) == 0);
-  constexpr int width = sizeof(Record) / sizeof(double);
-  const std::span<const double> outgoing(reinterpret_cast<const double*>(records.data()), records.size() * width);
-  const std::vector<double> incoming = doubles_from_nearby_ranks(box, places, outgoing, width, reach, communicator);
-  const Record* first = reinterpret_cast<const Record*>(incoming.data());
-  return {first, first + incoming.size() / width};
+  const NearbyRanks targets = nearby_ranks(box, places, reach, communicator);
+  return Routes(communicator, targets.ranks).there([&](int k) { return records[targets.places[k]]; });
 }
 
 // The positions of records, which have one: at().

@@ -1,7 +1,6 @@
 #include "topology/point_group.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #include "base/errors.hpp"
 
@@ -25,10 +24,12 @@ PointGroup::PointGroup(const PointCloud& cloud, const std::string& name, const s
               joined(valid));
 }
 
-std::int64_t PointGroup::points(const PointCloud& cloud) const {
-  std::int64_t count = 0;
-  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) count += counts(cloud, i);
-  return count;
+std::vector<int> PointGroup::points(const PointCloud& cloud) const {
+  std::vector<int> points;
+  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
+    if (counts(cloud, i)) points.push_back(i);
+  }
+  return points;
 }
 
 }  // namespace strut

@@ -1,8 +1,8 @@
 // The points of a node set or block, by its name.
 #pragma once
 
-#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "topology/cloud.hpp"
 
@@ -18,7 +18,7 @@ class PointGroup {
     if (set_ >= 0) return (cloud.sets[i] >> set_ & 1) != 0;
     return block_ < 0 || cloud.blocks[i] == block_;
   }
-  std::int64_t points(const PointCloud& cloud) const;  // number of points on this rank
+  std::vector<int> points(const PointCloud& cloud) const;  // of this rank
 
  private:
   int set_ = -1, block_ = -1;  // both -1: all points

@@ -106,6 +106,14 @@ void gather_scatter::exchange(const Communicator& communicator, const char* leav
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }
 
+Routes::Routes(const Communicator& communicator, std::span<const int> ranks)
+    : communicator_(communicator), order_(ranks.size()), to_ranks_(communicator.size(), 0) {
+  std::iota(order_.begin(), order_.end(), 0);
+  std::ranges::stable_sort(order_, {}, [&](int k) { return ranks[k]; });
+  for (const int rank : ranks) ++to_ranks_[rank];
+  from_ranks_ = counts_from_ranks(communicator, to_ranks_);
+}
+
 // Sends the lengths, then all names as one text.
 std::vector<std::string> broadcast_names(std::vector<std::string> names, const Communicator& communicator) {
   std::vector<std::uint64_t> lengths;

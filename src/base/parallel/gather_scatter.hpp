@@ -82,6 +82,42 @@ std::vector<T> exchange(const Communicator& communicator, std::span<const T> lea
   return arriving;
 }
 
+// The ways of values to the ranks that are given for them, and back.
+class Routes {
+ public:
+  // Collective. Value k goes to ranks[k].
+  Routes(const Communicator& communicator, std::span<const int> ranks);
+
+  // Collective. Sends value(k) for each k. Returns those that come to this rank: in the order of the ranks that send
+  // them, and of k there.
+  template <class Value>
+  auto there(const Value& value) const {
+    using T = std::decay_t<decltype(value(0))>;
+    std::vector<T> leaving;
+    leaving.reserve(order_.size());
+    for (const int k : order_) leaving.push_back(value(k));
+    return exchange<T>(communicator_, leaving, to_ranks_, from_ranks_);
+  }
+  template <class T>
+  std::vector<T> there(const std::vector<T>& values) const {
+    return there([&values](int k) { return values[k]; });
+  }
+
+  // Collective. Sends an answer to each value that came; returns those to the values that went, by k.
+  template <class T>
+  std::vector<T> back(const std::vector<T>& answers) const {
+    const std::vector<T> arrived = exchange<T>(communicator_, answers, from_ranks_, to_ranks_);
+    std::vector<T> all(arrived.size());
+    for (std::size_t n = 0; n < all.size(); ++n) all[order_[n]] = arrived[n];
+    return all;
+  }
+
+ private:
+  Communicator communicator_;
+  std::vector<int> order_;                           // of the values, by their ranks
+  std::vector<std::int64_t> to_ranks_, from_ranks_;  // numbers of values
+};
+
 // The names of rank 0, on all ranks. They may contain any character.
 std::vector<std::string> broadcast_names(std::vector<std::string> names, const Communicator& communicator);
 

@@ -33,4 +33,8 @@ const std::vector<LawEntry>& laws() {
   return entries;
 }
 
+bool knows_temperature(const materials::AnyLaw& law) {
+  return std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, law);
+}
+
 }  // namespace strut::deck

@@ -2,6 +2,7 @@
 
 #include "deck/laws/constants.hpp"
 #include "deck/laws/laws.hpp"
+#include "deck/sections/several_sections.hpp"
 
 namespace strut::deck {
 
@@ -44,15 +45,6 @@ const OptionalKey<double> compacted_young(
 const OptionalKey<double> compacted_poisson({.name = "Compacted Poisson's Ratio",
                                              .range = {-1, 0.5, false, false},
                                              .meaning = "ν of the solid."});
-
-// True if exactly one of two keys is given; else reports it.
-bool exactly_one(const Values& material, const Key& one, const Key& other, Problems& problems) {
-  if (material.given(one) != material.given(other)) return true;
-  problems.add(material.path(), material.given(one)
-                                    ? "'" + one.name + "' and '" + other.name + "' are both given; expected one of them"
-                                    : "'" + one.name + "' or '" + other.name + "' is missing; expected one of them");
-  return false;
-}
 
 // α² = (9/2)(1 − 2ν_p)/(1 + ν_p)
 double alpha_of(const Values& material) {
@@ -101,12 +93,12 @@ materials::AnyLaw make_metal_foam(const Values& material, Problems& problems) {
   materials::DeshpandeFleck law;
   law.initial = checked_moduli(material, problems);
   law.compacted = compacted_moduli(material, law.initial, problems);
-  if (exactly_one(material, alpha, plastic_poisson, problems)) law.alpha = alpha_of(material);
+  if (check_exactly_one(material, alpha, plastic_poisson, problems)) law.alpha = alpha_of(material);
   law.plateau = material[plateau];
   law.linear = material[linear];
   law.locking = material[locking];
   law.exponent = material[exponent];
-  if (exactly_one(material, densification, solid_density, problems)) {
+  if (check_exactly_one(material, densification, solid_density, problems)) {
     law.densification = densification_of(material, law.alpha, problems);
   }
   law.failure_strain = material[failure_strain].value_or(law.failure_strain);

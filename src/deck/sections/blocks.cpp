@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "deck/laws/laws.hpp"
 #include "deck/sections/several_sections.hpp"
 
 namespace strut::deck {
@@ -48,12 +49,6 @@ const OptionalKey<double> initial_temperature({.name = "Initial Temperature",
                                                .range = positive,
                                                .meaning = "For laws with a temperature; default 293."});
 
-void check_horizon(const Values& values, Problems& problems) {
-  check_one_of(values, horizon, horizon_factor, problems);
-  if (values.given(horizon) || values.given(horizon_factor)) return;
-  problems.add(values.path_to(horizon), "missing; " + expected(horizon) + ", or 'Horizon Factor' in its place");
-}
-
 void check_overlaps(const std::vector<Block>& blocks, Problems& problems) {
   std::map<std::string, std::string> owners;  // block of the mesh -> section that names it
   const auto clash = [&](const Block& block, const std::string& taken, const std::string& owner) {
@@ -92,12 +87,8 @@ bool asks_for_temperature(const DamageModel& model) {
   return johnson_cook && johnson_cook->constants[4] != 0;
 }
 
-bool knows_temperature(const Material& material) {
-  return std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
-}
-
 void check_temperature(const Values& section, const Material& material, Problems& problems) {
-  if (!section.given(initial_temperature) || material.name.empty() || knows_temperature(material)) return;
+  if (!section.given(initial_temperature) || material.name.empty() || knows_temperature(material.law)) return;
   problems.add(section.path_to(initial_temperature),
                "given, but material '" + material.name +
                    "' does not depend on it; expected one with Softening, another Flow Stress, Heating, an Equation of "
@@ -168,7 +159,7 @@ void check_damage_model(const Values& section, const Material& material, const N
         "material '" + material.name + "' cannot crack by model '" + named.name +
             "': expected the Material Model 'Elastic Correspondence' with Formulation 'Quadratic Correspondence'");
   }
-  if (is_known && asks_for_temperature(model) && !knows_temperature(material)) {
+  if (is_known && asks_for_temperature(model) && !knows_temperature(material.law)) {
     problems.add(section.path_to(damage_model),
                  "'" + named.name + "' has D5, but material '" + material.name +
                      "' does not know its temperature; expected one that does, or no D5");
@@ -192,7 +183,7 @@ std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& 
                                const std::vector<NamedDamageModel>& damage_models, Problems& problems) {
   std::vector<Block> all;
   for (const Values& section : deck.section(name).sections()) {
-    check_horizon(section, problems);
+    check_exactly_one(section, horizon, horizon_factor, problems);
     const int of_material = find_named(section, material, materials, "Materials", problems);
     const Material& made_of = of_material < static_cast<int>(materials.size()) ? materials[of_material] : Material();
     check_temperature(section, made_of, problems);

@@ -103,23 +103,15 @@ DamageModel read_johnson_cook(const Values& v, Problems& problems) {
                  v);
 }
 
-// Checks that either a critical value or a fracture energy is given.
-void check_limit(const Values& values, const OptionalKey<double>& critical, const OptionalKey<double>& energy,
-                 Problems& problems) {
-  check_one_of(values, critical, energy, problems);
-  if (values.given(critical) || values.given(energy)) return;
-  problems.add(values.path_to(critical), "missing; " + expected(critical) + ", or '" + energy.name + "' in its place");
-}
-
 DamageModel read_critical_stretch(const Values& values, Problems& problems) {
-  check_limit(values, critical_stretch, fracture_energy, problems);
+  check_exactly_one(values, critical_stretch, fracture_energy, problems);
   Function limit(values[critical_stretch].value_or(1));
   limit.set_path(values.path_to(critical_stretch));
   return {.critical_stretch = limit, .fracture_energy = values[fracture_energy].value_or(0)};
 }
 
 DamageModel read_bond_energy(const Values& values, Problems& problems) {
-  check_limit(values, critical_bond_energy, separation_energy, problems);
+  check_exactly_one(values, critical_bond_energy, separation_energy, problems);
   return {.fracture_energy = values[separation_energy].value_or(0),
           .critical_bond_energy = values[critical_bond_energy].value_or(1)};
 }

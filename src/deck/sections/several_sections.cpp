@@ -13,6 +13,13 @@ void check_one_of(const Values& values, const Key& one, const Key& other, Proble
   }
 }
 
+bool check_exactly_one(const Values& values, const Key& one, const Key& other, Problems& problems) {
+  check_one_of(values, one, other, problems);
+  if (values.given(one) || values.given(other)) return values.given(one) != values.given(other);
+  problems.add(values.path_to(one), "missing; " + expected(one) + ", or '" + other.name + "' in its place");
+  return false;
+}
+
 int find_name(const Values& section, const Key& key, const std::string& wanted, const std::vector<std::string>& names,
               const std::string& where, Problems& problems) {
   const auto found = std::find(names.begin(), names.end(), wanted);

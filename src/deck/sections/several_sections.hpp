@@ -13,6 +13,9 @@ namespace strut::deck {
 // Reports if both keys are given.
 void check_one_of(const Values& values, const Key& one, const Key& other, Problems& problems);
 
+// True if exactly one of them is given; else reports it.
+bool check_exactly_one(const Values& values, const Key& one, const Key& other, Problems& problems);
+
 // The index of `wanted`, the value of `key`, in `names`, the sections of `where`; the number of names if there is
 // none.
 int find_name(const Values& section, const Key& key, const std::string& wanted, const std::vector<std::string>& names,

@@ -29,11 +29,9 @@ std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& cond
 
 std::vector<std::uint8_t> damped_points(const Body& body, const Conditions& conditions) {
   std::vector<std::uint8_t> marks;
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (Type::stage == Stage::drags) {
-      marks.resize(body.owned(), 0);
-      for (const auto& drag : one.drags) marks[drag.point] = 1;
-    }
+  conditions.visit([&](const NonReflectingEnd& end) {
+    marks.resize(body.owned(), 0);
+    for (const auto& drag : end.drags) marks[drag.point] = 1;
   });
   return marks;
 }

@@ -110,23 +110,88 @@ double sum_of_head(const NetcdfLists& file) {
   return sum.value();
 }
 
-void check_sums(const fs::path& path, const NetcdfLists& file, const Snapshot& snapshot) {
-  const std::vector<double> sums = file.reals(name_of_sums);
-  std::size_t next = 0;
-  const auto check = [&](double sum, const std::string& what) {
-    if (next < sums.size() && sums[next++] == sum) return;
-    throw Error(path.string() + ": is damaged: the check sum of " + what + " is not that of its contents");
-  };
-  check(sum_of_head(file), "its numbers");
-  for (const auto& [name, value] : snapshot.shares) check(sum_of<double>(file, name_of_share(name)), "'" + name + "'");
-  for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    const Snapshot::Group& group = snapshot.groups[g];
-    check(sum_of<std::int64_t>(file, name_of_ids(g)), "the ids of " + group.name);
+// The lists of a file, on rank 0, and what a snapshot, which may be of another deck, asks of them.
+class PartsOfFile {
+ public:
+  PartsOfFile(const fs::path& path, const NetcdfLists& file)
+      : path_(path),
+        file_(file),
+        groups_(lines_of(file.text(name_of_groups))),
+        lists_(lines_of(file.text(name_of_lists))),
+        sums_(file.reals(name_of_sums)) {
+    if (sums_.size() != 1 + lists_.size() || sums_[0] != sum_of_head(file)) damaged("its numbers");
+  }
+
+  // The number of the group in the file, −1: it is not there.
+  int group(const std::string& name) const {
+    const auto found = std::find(groups_.begin(), groups_.end(), name);
+    return found == groups_.end() ? -1 : static_cast<int>(found - groups_.begin());
+  }
+  // True if the list is there; throws Error if it is damaged.
+  template <class T>
+  bool has(const std::string& list) const {
+    const auto found = std::find(lists_.begin(), lists_.end(), list);
+    if (found == lists_.end()) return false;
+    if (sums_[1 + (found - lists_.begin())] != sum_of<T>(file_, list)) damaged(told(list));
+    return true;
+  }
+
+  // Throws Error if any list is damaged.
+  void check_all() const {
+    std::set<std::string> ids;
+    for (std::size_t g = 0; g < groups_.size(); ++g) ids.insert(name_of_ids(g));
+    for (const std::string& list : lists_) ids.contains(list) ? has<std::int64_t>(list) : has<double>(list);
+  }
+
+  // Adds what the snapshot asks for and the file does not have; returns the numbers of its groups in the file.
+  std::vector<int> compare(const Snapshot& snapshot, const std::vector<std::int64_t>& counts, const Takes& takes,
+                           std::vector<std::string>& missing) const {
+    for (const auto& [name, value] : snapshot.numbers) {
+      if (takes(name) && !file_.has_number(name_of_number(name))) missing.push_back(name);
+    }
+    for (const auto& [name, value] : snapshot.shares) {
+      if (takes(name) && !has<double>(name_of_share(name))) missing.push_back(name);
+    }
+    std::vector<int> groups;
+    for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
+      groups.push_back(group(snapshot.groups[g].name));
+      compare(snapshot.groups[g], counts[g], groups.back(), takes, missing);
+    }
+    return groups;
+  }
+
+ private:
+  void compare(const Snapshot::Group& group, std::int64_t count, int g, const Takes& takes,
+               std::vector<std::string>& missing) const {
+    if (g >= 0 && has<std::int64_t>(name_of_ids(g)) && file_.size(name_of_ids(g)) != static_cast<std::size_t>(count)) {
+      throw Error(path_.string() + ": is of another mesh: " + group.name + ": " +
+                  std::to_string(file_.size(name_of_ids(g))) + " points there, " + std::to_string(count) + " here");
+    }
     for (const Snapshot::Column& column : group.columns) {
-      check(sum_of<double>(file, name_of(g, column.name)), "'" + column.name + "' of " + group.name);
+      const std::string name = group.name + " > " + column.name;
+      if (!takes(name)) continue;
+      const bool there = g >= 0 && has<double>(name_of(g, column.name)) &&
+                         file_.size(name_of(g, column.name)) == static_cast<std::size_t>(count * column.width);
+      if (!there) missing.push_back(name);
     }
   }
-}
+  // "'velocity' of all points"
+  std::string told(const std::string& list) const {
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const std::string begin = name_of(g, "");
+      if (list.starts_with(begin)) return "'" + list.substr(begin.size()) + "' of " + groups_[g];
+    }
+    return "'" + list + "'";
+  }
+  [[noreturn]] void damaged(const std::string& what) const {
+    throw Error(path_.string() + ": is damaged: the check sum of " + what + " is not that of its contents");
+  }
+
+  const fs::path& path_;
+  const NetcdfLists& file_;
+  std::vector<std::string> groups_, lists_;
+  std::vector<double> sums_;
+};
 
 // Collective. Sends each rank its slice of a list with `width` values per point (scatterv).
 template <class T>
@@ -223,7 +288,7 @@ std::string read_checkpoint(const fs::path& newest, const Communicator& communic
   const auto open = [&] {
     NetcdfLists found = opened(path);
     compare(path, found, snapshot, counts);
-    check_sums(path, found, snapshot);
+    PartsOfFile(path, found).check_all();
     file.emplace(std::move(found));
   };
   run_on_root(communicator, [&] { open_either(newest, path, open, note); });
@@ -233,85 +298,6 @@ std::string read_checkpoint(const fs::path& newest, const Communicator& communic
       communicator, path, file, groups, [](const std::string&) { return true; }, snapshot);
   return note;
 }
-
-namespace {
-
-// A file of a run whose deck may be another one, on rank 0: of its lists, those of a snapshot.
-class PartsOfFile {
- public:
-  PartsOfFile(const fs::path& path, const NetcdfLists& file)
-      : path_(path),
-        file_(file),
-        groups_(lines_of(file.text(name_of_groups))),
-        lists_(lines_of(file.text(name_of_lists))),
-        sums_(file.reals(name_of_sums)) {
-    if (sums_.size() != 1 + lists_.size() || sums_[0] != sum_of_head(file)) damaged("its numbers");
-  }
-
-  // The number of the group in the file, −1: it is not there.
-  int group(const std::string& name) const {
-    const auto found = std::find(groups_.begin(), groups_.end(), name);
-    return found == groups_.end() ? -1 : static_cast<int>(found - groups_.begin());
-  }
-  // True if the list is there; throws Error if it is damaged.
-  template <class T>
-  bool has(const std::string& list) const {
-    const auto found = std::find(lists_.begin(), lists_.end(), list);
-    if (found == lists_.end()) return false;
-    if (sums_[1 + (found - lists_.begin())] != sum_of<T>(file_, list)) damaged("'" + list + "'");
-    return true;
-  }
-
-  // Throws Error if any list is damaged.
-  void check_all() const {
-    std::set<std::string> ids;
-    for (std::size_t g = 0; g < groups_.size(); ++g) ids.insert(name_of_ids(g));
-    for (const std::string& list : lists_) ids.contains(list) ? has<std::int64_t>(list) : has<double>(list);
-  }
-
-  // Adds what the snapshot asks for and the file does not have; returns the numbers of its groups in the file.
-  std::vector<int> compare(const Snapshot& snapshot, const std::vector<std::int64_t>& counts, const Takes& takes,
-                           std::vector<std::string>& missing) const {
-    for (const auto& [name, value] : snapshot.numbers) {
-      if (takes(name) && !file_.has_number(name_of_number(name))) missing.push_back(name);
-    }
-    for (const auto& [name, value] : snapshot.shares) {
-      if (takes(name) && !has<double>(name_of_share(name))) missing.push_back(name);
-    }
-    std::vector<int> groups;
-    for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-      groups.push_back(group(snapshot.groups[g].name));
-      compare(snapshot.groups[g], counts[g], groups.back(), takes, missing);
-    }
-    return groups;
-  }
-
- private:
-  void compare(const Snapshot::Group& group, std::int64_t count, int g, const Takes& takes,
-               std::vector<std::string>& missing) const {
-    if (g >= 0 && has<std::int64_t>(name_of_ids(g)) && file_.size(name_of_ids(g)) != static_cast<std::size_t>(count)) {
-      throw Error(path_.string() + ": is of another mesh: " + group.name + ": " +
-                  std::to_string(file_.size(name_of_ids(g))) + " points there, " + std::to_string(count) + " here");
-    }
-    for (const Snapshot::Column& column : group.columns) {
-      const std::string name = group.name + " > " + column.name;
-      if (!takes(name)) continue;
-      const bool there = g >= 0 && has<double>(name_of(g, column.name)) &&
-                         file_.size(name_of(g, column.name)) == static_cast<std::size_t>(count * column.width);
-      if (!there) missing.push_back(name);
-    }
-  }
-  [[noreturn]] void damaged(const std::string& what) const {
-    throw Error(path_.string() + ": is damaged: the check sum of " + what + " is not that of its contents");
-  }
-
-  const fs::path& path_;
-  const NetcdfLists& file_;
-  std::vector<std::string> groups_, lists_;
-  std::vector<double> sums_;
-};
-
-}  // namespace
 
 std::vector<std::string> read_checkpoint_parts(const CheckpointFacts& facts, const Communicator& communicator,
                                                const Takes& takes, Snapshot& snapshot) {

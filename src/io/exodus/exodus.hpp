@@ -45,9 +45,11 @@ std::vector<Triangle> read_shells(const std::filesystem::path& file, const Commu
 
 struct OutputField {
   std::string name;    // "Displacement", "Cauchy_Stress", …
-  int components = 1;  // 1; 3: suffix X Y Z; 6: XX YY ZZ XY YZ ZX; 9 (row by row): XX XY XZ YX YY YZ ZX ZY ZZ
+  int components = 1;  // 1, 3, 6 or 9
   bool nodal = false;  // else an element variable
 };
+// The suffixes of 3, 6 or 9 (row by row) components; none for another number of them.
+std::vector<std::string> component_names(int components);
 
 // Collective. The reason why a result of these points cannot be written, whatever its fields: numbers or names that the
 // file format cannot hold. "" if it can; the same on all ranks.

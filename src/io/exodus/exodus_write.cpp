@@ -21,28 +21,24 @@
 
 namespace strut::io {
 
+std::vector<std::string> component_names(int components) {
+  if (components == 3) return {"X", "Y", "Z"};
+  if (components == 6) return {"XX", "YY", "ZZ", "XY", "YZ", "ZX"};
+  if (components == 9) return {"XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"};
+  return {};
+}
+
 namespace {
 
-std::vector<std::string> component_names(const OutputField& field) {
-  std::vector<std::string> suffixes;
-  switch (field.components) {
-    case 1:
-      return {field.name};
-    case 3:
-      suffixes = {"X", "Y", "Z"};
-      break;
-    case 6:
-      suffixes = {"XX", "YY", "ZZ", "XY", "YZ", "ZX"};
-      break;
-    case 9:
-      suffixes = {"XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"};
-      break;
-    default:
-      throw Error("output field '" + field.name + "' has " + std::to_string(field.components) +
-                  " components; 1, 3, 6 and 9 can be written");
+std::vector<std::string> names_of(const OutputField& field) {
+  if (field.components == 1) return {field.name};
+  std::vector<std::string> names = component_names(field.components);
+  if (names.empty()) {
+    throw Error("output field '" + field.name + "' has " + std::to_string(field.components) +
+                " components; 1, 3, 6 and 9 can be written");
   }
-  for (std::string& suffix : suffixes) suffix = field.name + suffix;
-  return suffixes;
+  for (std::string& name : names) name = field.name + name;
+  return names;
 }
 
 }  // namespace
@@ -133,7 +129,7 @@ void ExodusWriter::File::begin(const std::filesystem::path& path, const PointClo
 std::array<std::vector<std::string>, 2> ExodusWriter::File::names() const {
   std::array<std::vector<std::string>, 2> names;
   for (const OutputField& field : fields) {
-    for (std::string& name : component_names(field)) names[field.nodal].push_back(std::move(name));
+    for (std::string& name : names_of(field)) names[field.nodal].push_back(std::move(name));
   }
   return names;
 }

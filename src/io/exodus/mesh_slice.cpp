@@ -38,7 +38,7 @@ class SliceReader {
   // Reads this rank's slice of the nodes.
   std::vector<MeshSource::Place> places_of_nodes() {
     return dealt<MeshSource::Place>(slice_counts(slice_.layout.nodes, ranks_),
-                                  [this](std::int64_t begin, auto values) { file_->places(begin, values); });
+                                    [this](std::int64_t begin, auto values) { file_->places(begin, values); });
   }
 
   std::vector<std::uint64_t> sets_of_nodes() {
@@ -110,31 +110,20 @@ class SliceReader {
 
   // Sends elements to the ranks whose slices contain any of their nodes.
   void bring_to_nodes(int size, std::vector<int>& nodes, std::vector<std::int64_t>& elements) const {
-    std::vector<std::pair<int, std::size_t>> leaving;  // rank, and element to send
-    const auto w = static_cast<std::size_t>(size);
+    std::vector<int> ranks, ranks_of_nodes;
+    std::vector<std::size_t> leaving;  // element to send
     for (std::size_t e = 0; e < elements.size(); ++e) {
-      const std::size_t before = leaving.size();
-      for (std::size_t n = e * w; n < (e + 1) * w; ++n) {
-        const std::pair<int, std::size_t> one{slice_owner(slice_.layout.nodes, ranks_, nodes[n]), e};
-        if (std::find(leaving.begin() + static_cast<std::ptrdiff_t>(before), leaving.end(), one) == leaving.end()) {
-          leaving.push_back(one);
-        }
+      const auto before = std::ssize(ranks);
+      for (int n = 0; n < size; ++n) {
+        const int rank = slice_owner(slice_.layout.nodes, ranks_, nodes[e * size + n]);
+        if (std::find(ranks.begin() + before, ranks.end(), rank) != ranks.end()) continue;
+        ranks.push_back(rank), leaving.push_back(e);
+        ranks_of_nodes.insert(ranks_of_nodes.end(), size, rank);
       }
     }
-    std::sort(leaving.begin(), leaving.end());
-    std::vector<std::int64_t> to_ranks(static_cast<std::size_t>(ranks_), 0), leaving_elements;
-    std::vector<int> leaving_nodes;
-    for (const auto& [rank, e] : leaving) {
-      ++to_ranks[static_cast<std::size_t>(rank)];
-      leaving_elements.push_back(elements[e]);
-      const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(e * w);
-      leaving_nodes.insert(leaving_nodes.end(), first, first + size);
-    }
-    std::vector<std::int64_t> from_ranks = counts_from_ranks(communicator_, to_ranks);
-    elements = exchange<std::int64_t>(communicator_, leaving_elements, to_ranks, from_ranks);
-    for (std::int64_t& count : to_ranks) count *= size;
-    for (std::int64_t& count : from_ranks) count *= size;
-    nodes = exchange<int>(communicator_, leaving_nodes, to_ranks, from_ranks);
+    elements = Routes(communicator_, ranks).there([&](int k) { return elements[leaving[k]]; });
+    nodes =
+        Routes(communicator_, ranks_of_nodes).there([&](int k) { return nodes[leaving[k / size] * size + k % size]; });
   }
 
   // Numbers the nodes of the mesh's elements in the order of the file. Nodes belong to several elements: duplicates

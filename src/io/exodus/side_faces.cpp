@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 
 #include "base/parallel/gather_scatter.hpp"
 #include "topology/cloud.hpp"
@@ -26,37 +25,22 @@ Key key_of(const Face& face, const Mesh& mesh, const std::vector<Mirror>& sides)
   return key;
 }
 
-// Keys on the ranks that count them.
-struct Sent {
-  std::vector<std::size_t> order;  // of the keys here, by the rank to which they go
-  std::vector<std::int64_t> to_ranks, from_ranks;
-  std::vector<Key> arrived;
-};
-
-Sent sent(const std::vector<Key>& keys, const Communicator& communicator) {
-  const auto owner = [&](const Key& key) { return static_cast<std::size_t>(key[3] % communicator.size()); };
-  Sent all{std::vector<std::size_t>(keys.size()), std::vector<std::int64_t>(communicator.size(), 0), {}, {}};
-  std::iota(all.order.begin(), all.order.end(), 0);
-  std::ranges::stable_sort(all.order, {}, [&](std::size_t k) { return owner(keys[k]); });
-  std::vector<Key> leaving;
-  for (const std::size_t k : all.order) leaving.push_back(keys[k]), ++all.to_ranks[owner(keys[k])];
-  all.from_ranks = counts_from_ranks(communicator, all.to_ranks);
-  all.arrived = exchange<Key>(communicator, leaving, all.to_ranks, all.from_ranks);
-  return all;
+// The ways of keys to the ranks that count them.
+Routes to_owners(const std::vector<Key>& keys, const Communicator& communicator) {
+  std::vector<int> owners;
+  for (const Key& key : keys) owners.push_back(static_cast<int>(key[3] % communicator.size()));
+  return {communicator, owners};
 }
 
 // Collective. For each of the keys `asked`, how often it is among the keys of all ranks.
 std::vector<int> counts_of(const std::vector<Key>& asked, const std::vector<Key>& keys,
                            const Communicator& communicator) {
   std::map<Key, int> found;
-  for (const Key& key : sent(keys, communicator).arrived) ++found[key];
-  const Sent questions = sent(asked, communicator);
+  for (const Key& key : to_owners(keys, communicator).there(keys)) ++found[key];
+  const Routes routes = to_owners(asked, communicator);
   std::vector<int> answers;
-  for (const Key& key : questions.arrived) answers.push_back(found.contains(key) ? found[key] : 0);
-  const std::vector<int> mine = exchange<int>(communicator, answers, questions.from_ranks, questions.to_ranks);
-  std::vector<int> counts(asked.size());
-  for (std::size_t n = 0; n < counts.size(); ++n) counts[questions.order[n]] = mine[n];
-  return counts;
+  for (const Key& key : routes.there(asked)) answers.push_back(found.contains(key) ? found[key] : 0);
+  return routes.back(answers);
 }
 
 // A face on one of the sides.

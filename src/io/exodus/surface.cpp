@@ -100,22 +100,16 @@ std::vector<int> sums_of_equals(const std::vector<Count>& counts) {
 // Collective. Makes the counts those over all ranks: the rank whose slice has the last node of a side adds them up.
 void add_up(const MeshSlice& slice, const Communicator& communicator, const std::vector<Side>& sides,
             std::vector<Group>& groups) {
-  const auto owner = [&](const Group& group) {
-    return slice_owner(slice.layout.nodes, communicator.size(), slice.nodes[sides[group.first].key[3]]);
-  };
-  std::stable_sort(groups.begin(), groups.end(), [&](const auto& a, const auto& b) { return owner(a) < owner(b); });
-  std::vector<std::int64_t> to_ranks(static_cast<std::size_t>(communicator.size()), 0);
-  std::vector<Count> leaving;
+  std::vector<int> owners;
+  std::vector<Count> counts;
   for (const Group& group : groups) {
-    Count& count = leaving.emplace_back(Count{sides[group.first].key, static_cast<int>(group.count)});
+    Count& count = counts.emplace_back(Count{sides[group.first].key, static_cast<int>(group.count)});
     for (int& node : count.key) node = node < 0 ? node : static_cast<int>(slice.nodes[node]);
-    ++to_ranks[static_cast<std::size_t>(owner(group))];
+    owners.push_back(slice_owner(slice.layout.nodes, communicator.size(), count.key[3]));
   }
-  const std::vector<std::int64_t> from_ranks = counts_from_ranks(communicator, to_ranks);
-  const std::vector<int> sums = sums_of_equals(exchange<Count>(communicator, leaving, to_ranks, from_ranks));
-  const std::vector<int> mine = exchange<int>(communicator, sums, from_ranks, to_ranks);
-  for (std::size_t k = 0; k < groups.size(); ++k) groups[k].count = mine[k];
-  std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.first < b.first; });
+  const Routes routes(communicator, owners);
+  const std::vector<int> sums = routes.back(sums_of_equals(routes.there(counts)));
+  for (std::size_t k = 0; k < groups.size(); ++k) groups[k].count = sums[k];
 }
 
 std::vector<Face> faces_of(const Mesh& mesh, const std::vector<Side>& sides, const std::vector<Group>& groups) {

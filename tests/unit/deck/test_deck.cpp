@@ -501,7 +501,8 @@ TEST(Deck, MetalFoamFromPoissonsRatioAndDensities) {
 TEST(Deck, MetalFoamNamesWhatIsMissing) {
   const DeckFolder folder;
   const std::string error = folder.error(foam_deck(R"(<Parameter name="Alpha" type="double" value="2.1"/>)"));
-  EXPECT_NE(error.find("'Densification Strain' or 'Solid Density' is missing; expected one of them"), std::string::npos)
+  EXPECT_NE(error.find("Densification Strain: missing; expected a real number > 0, or 'Solid Density' in its place"),
+            std::string::npos)
       << error;
 }
 
