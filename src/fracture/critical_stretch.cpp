@@ -149,7 +149,7 @@ GradualCrack gradual_crack(const PulledLattice& lattice, double fracture_energy)
   constexpr double zone = 4;                    // E G_c/σ_c², spacings: fewer do not resolve the zone that softens
   double trace = 0, stretches = 0, across = 0;  // stretches: sum of their squares at an opening of 1 m
   const std::vector<LatticeBond> family = family_of(lattice);
-  std::vector<double> parts(openings_of(family).layers, 0);  // of the opening in the gradient of the layers, times K
+  std::vector<double> parts(openings_of(family).layers, 0);  // gradients of the layers, first times K
   for (const LatticeBond& bond : family) {
     trace += bond.weight * bond.xi.squaredNorm();
     if (bond.layers_below <= 0) continue;
@@ -157,12 +157,17 @@ GradualCrack gradual_crack(const PulledLattice& lattice, double fracture_energy)
     stretches += bond.layers_below / (bond.opening * bond.opening), across += bond.layers_below;
   }
   double squares = 0;  // Σ g², 1/m²; both halves are alike
-  for (const double part : parts) squares += 2 * std::pow(part / (trace / 3), 2);
+  for (double& part : parts) part /= trace / 3, squares += 2 * part * part;
   const auto [bulk, shear] = lattice.moduli;
   const double young = 9 * bulk * shear / (3 * bulk + shear);
-  const double strength = std::sqrt(young * fracture_energy / (zone * lattice.spacing));
-  const double last = 2 * fracture_energy / strength;
-  return {strength, 1 / (lattice.spacing * squares), last * std::sqrt(stretches / across)};
+  double springs = 0;  // their energy over that of the layers: they fall alike
+  if (lattice.springs == ResidualKind::both_gradients) {
+    const double of_layers = 0.25 * lattice.moduli.longitudinal() * squares;
+    springs = energy_of_mean_springs(lattice, family, static_cast<int>(parts.size()), 1, 0) / of_layers;
+  }
+  const double of_points = fracture_energy / (1 + springs);
+  const double strength = std::sqrt(young * of_points / (zone * lattice.spacing)), last = 2 * of_points / strength;
+  return {strength, (1 + springs) / (lattice.spacing * squares), last * std::sqrt(stretches / across)};
 }
 
 namespace {
@@ -218,6 +223,11 @@ void set_critical_values(Body& body) {
     if (!(body.domain.blocks[b].spacing > 0)) continue;  // no points
     const PulledLattice lattice = lattice_of(body, b);
     if (damage->is_gradual) {
+      if (!body.blocks[b].is_quadratic() && openings_of(family_of(lattice)).layers != 1) {  // the same on all ranks
+        throw Error("Damage Models: block '" + body.blocks[b].name +
+                    "' has cracks by 'Cohesive Crack', which open between two layers of points; expected a horizon of "
+                    "more than one and less than two spacings, such as a Horizon Factor of 1.75");
+      }
       set_gradual_crack(body.blocks[b].material, gradual_crack(lattice, damage->fracture_energy));
       continue;
     }

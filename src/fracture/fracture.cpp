@@ -6,6 +6,7 @@
 
 #include "base/timing.hpp"
 #include "fracture/broken_family.hpp"
+#include "fracture/fading_springs.hpp"
 #include "fracture/separation.hpp"
 #include "fracture/work_balance.hpp"
 #include "mechanics/kernels/bonds.hpp"
@@ -142,7 +143,8 @@ void Fracture::start_step(const Body& body, std::span<const Vector> velocities, 
   }
   const bool is_due = travel_.advance(body, velocities, dt, due, stretch);
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
-  is_looked_at_ = is_due || limits_change(body) || any_fails || energies_.any();
+  is_looked_at_ =
+      is_due || limits_change(body) || any_fails || energies_.any() || std::ranges::any_of(body.blocks, springs_fade);
   if (is_looked_at_) keep_start(body);
   if (energies_.any()) energies_.take_expansions(body);
 }
@@ -296,27 +298,36 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number, double 
   }
 }
 
-// The fraction of the springs of block.points[k] that remains with its stress.
+// The fraction of the springs of block.points[k] that remains with its stress (springs_fade).
 double Fracture::part_of_springs(const Body& body, const MaterialBlock& block, int k) {
   if (body.force_states.tensors[block.points[k]].failed() > 0) return 0;
   const auto part = [&block, k]<class L>(const L& law) {
     if constexpr (materials::softens<L>) return law.part_left(block.state_of<L>(k));
+    if constexpr (materials::opens_cracks<L>) return 1 - block.state_of<L>(k).damage;
     return 1.0;
   };
   return std::visit(part, block.material.law);
 }
 
-// Counts the energy that the springs of a point lose because it softens or fails.
+// Counts the energy that the springs of a point lose because it softens or fails; that of springs on both ends'
+// gradients is counted when ghosts are current (count_springs).
 void Fracture::soften_springs(Body& body, Part part) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
-    if (!may_fail_[b] || block.in_rigid_motion || !block.has_springs(ResidualKind::own_gradient)) continue;
+    const bool fade = springs_fade(block) && is_looked_at_;
+    const bool soften = may_fail_[b] && block.has_springs(ResidualKind::own_gradient);
+    if (block.in_rigid_motion || !(fade || soften)) continue;
     const auto [begin, end] = updated_with(block, part);
     for (int k = begin; k < end; ++k) {
       const int i = block.points[k];
       const double left = whole_springs_[i] * part_of_springs(body, block, k);
       double& springs = body.points[i].stabilization;
       if (!(left < springs)) continue;
+      if (fade) {
+        double& of_bonds = body.force_states.gradients[i].stiffness();
+        springs = left, of_bonds = std::min(of_bonds, left);
+        continue;
+      }
       bonds::with_influence(body.influence, [&](auto weight) {
         const bonds::OfPoint family{{i}, body.domain.families};
         const double square = bonds::squared_residual(family, body.domain.sites.data(), body.points.data(), weight);
@@ -354,6 +365,7 @@ void Fracture::count_dissipation(Body& body, Part part) {
 void Fracture::count_springs(Body& body) {
   const std::vector<GradientState>& now = body.force_states.gradients;
   const StepEnd start{body, start_, true}, end{body, start_, false};
+  count_fading(body, end, start_gradients_);
   for (const Affected& one : affected_) {
     count(body, one);
     const Cluster cluster = body.domain.families.lists[one.cluster];

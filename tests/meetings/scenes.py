@@ -364,7 +364,8 @@ class Draft:
         if model == "Bond Energy":
             return all(m["Material Model"] == "Elastic" for m in self.of_material.values())
         if model == "Cohesive Crack":
-            return material["Material Model"] == "Elastic Correspondence" and material.get("Formulation", "").startswith("Quadratic")
+            points = material.get("Stabilization", "Mean Gradient") == "Mean Gradient"
+            return material["Material Model"] == "Elastic Correspondence" and (points or material.get("Formulation", "").startswith("Quadratic"))
         metal = material["Material Model"] == "Elastic Plastic Correspondence"
         return metal or model not in ("Plastic Strain", "Johnson-Cook", "Cockcroft-Latham")
 

@@ -89,6 +89,8 @@ inline std::vector<AnyScene> all_scenes() {
   press.node_sets = key("foot", "z &lt; 1e-3") + key("head", "z &gt; 5.1e-3");
   press.times = key("Final Time", "1");
   press.verlet = key("Number of Load Steps", "5") + key("Tolerance", "1e-6");
+  Parts cracking = impact_of_scenes("Elastic Correspondence", "", elastic, "", broken, surface);
+  cracking.blocks = changed(cracking.blocks, "2.01e-3", "1.75e-3");  // of the block that cracks
   Parts heavier = impact_of_scenes(plastic, flow, elastic, "", "", surface);
   heavier.verlet += key("Mass Scaling dt", "60e-9") + key("Most Added Mass", "10");
   return {{"Correspondence", impact_of_scenes(plastic, flow + viscosity, elastic, "", "", surface)},
@@ -103,6 +105,7 @@ inline std::vector<AnyScene> all_scenes() {
            impact_of_scenes("Elastic Correspondence", key("Formulation", "Quadratic Correspondence"), elastic, "",
                             broken, surface),
            model("Cohesive Crack", key("Fracture Energy", "0.5"))},
+          {"CohesivePoints", cracking, model("Cohesive Crack", key("Fracture Energy", "0.5"))},
           {"Failure",
            impact_of_scenes(plastic, flow + heating + key("Stabilization", "Silling"), elastic, "", broken, surface),
            model("Plastic Strain", key("Failure Strain", "0.02") + key("Fracture Energy", "10e3"))},

@@ -153,11 +153,14 @@ void check_damage_model(const Values& section, const Material& material, const N
                      "': expected the Material Model 'Elastic Plastic Correspondence' without an Equation of State");
   }
   if (is_known && model.is_gradual &&
-      (material.formulation != Formulation::quadratic || !materials::cracking(material.law, 1))) {
+      ((material.formulation != Formulation::quadratic &&
+        residual_of(material.stabilization) != ResidualKind::both_gradients) ||
+       !materials::cracking(material.law, 1))) {
     problems.add(
         section.path_to(damage_model),
         "material '" + material.name + "' cannot crack by model '" + named.name +
-            "': expected the Material Model 'Elastic Correspondence' with Formulation 'Quadratic Correspondence'");
+            "': expected the Material Model 'Elastic Correspondence' with Stabilization 'Mean Gradient' or Formulation "
+            "'Quadratic Correspondence'");
   }
   if (is_known && asks_for_temperature(model) && !knows_temperature(material.law)) {
     problems.add(section.path_to(damage_model),

@@ -135,7 +135,8 @@ const std::vector<Case<DamageModel, Problems&>>& entries() {
         .keys = {stretch_over_time}},
        read_stretch_over_time},
       {{.name = "Cohesive Crack",
-        .meaning = "The stress of an elastic solid by quadratic correspondence falls where its largest principal value "
+        .meaning = "The stress of an elastic solid by correspondence (mean gradient, horizon below two spacings, or "
+                   "quadratic) falls where its largest principal value "
                    "reaches a strength, until a crack has taken G_c; then bonds across it break.",
         .keys = {cohesive_energy}},
        [](const Values& v, Problems&) {
