@@ -16,7 +16,7 @@ PointStress Brittle::soften(const PointStep& step, const Symmetric& stress, Stat
   const auto [effective, converged] = solid.step(step, scaled(stress, 1 / x), nothing);
   if (!converged) return {stress, false};
   const double most = CockcroftLatham::largest_principal(effective), whole = fracture_energy / width;
-  const double left = 1 - state.dissipated / whole;
+  const double left = std::max(0.0, 1 - state.dissipated / whole);  // times an infinite strength it is never exceeded
   State reached = state;
   if (x * most > strength * left) {
     const double slope = strength * step.J * solid.elastic_energy(falling(effective)) / whole, room = most - slope;

@@ -19,7 +19,7 @@ namespace strut::materials {
 struct Brittle {
   Elastic solid;
   double fracture_energy = 0;                                 // G_c, J/m²
-  double strength = std::numeric_limits<double>::infinity();  // σ_c, Pa
+  double strength = std::numeric_limits<double>::infinity();  // σ_c, Pa; infinite: d stays
   double width = 1;                                           // ℓ, m
 
   template <class T>

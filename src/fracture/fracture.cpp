@@ -159,6 +159,8 @@ double Fracture::largest_stretch(const Body& body) const {
   const Domain& domain = body.domain;
   double largest = 0;
   for (int i = 0; i < domain.owned; ++i) {
+    const auto& damage = body.block_of(i).material.damage;
+    if (damage && damage->is_gradual) continue;  // such a bond holds next to nothing when it breaks
     domain.families.for_each(i, [&](int j) {
       const double limit = std::sqrt(std::min(limits_[i], limits_[j])) - 1;
       const double length = (domain.current(j) - domain.current(i)).norm();

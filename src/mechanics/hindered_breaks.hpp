@@ -21,9 +21,10 @@ inline bool stays_while_others_break(Formulation formulation, const materials::A
   return formulation != Formulation::quadratic && !ages;
 }
 
-// By quadratic correspondence a crack by stretch does not take its fracture energy; a crack that softens, or a metal
-// that tears, would need load steps that follow it down (docs/decisions.md, Equilibria).
+// By quadratic correspondence a crack by stretch does not take its fracture energy, but one that softens does; a metal
+// that tears would need load steps that follow it down.
 inline bool breaks_at_rest(Formulation formulation, const materials::AnyLaw& law, const DamageModel& damage) {
+  if (damage.is_gradual) return formulation == Formulation::quadratic;
   return formulation != Formulation::quadratic && std::holds_alternative<materials::Elastic>(law) &&
          damage.critical_stretch && !damage.critical_stretch->depends_on_time();
 }

@@ -90,6 +90,8 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
       committed_(body) {
   check_equilibria_possible(conditions_);
   breaks_ = may_break();
+  strengths_.assign(body.blocks.size(), HUGE_VAL);
+  if (fracture_) swap_strengths();
   residual_.assign(body.owned(), Vector::Zero());
   mirror_forces_before_.assign(side_count(body.domain), Vector::Zero());
   inner_ = outer_ = outer_before_ = forces_before_ = residual_;
@@ -299,23 +301,42 @@ bool Equilibrium::may_break() const {
   return fracture_ && hindrance_of_breaks(body_).empty() && !tools_.any() && !contact_.any();
 }
 
-std::int64_t Equilibrium::break_bonds() {
-  if (!breaks_) return 0;
+// Damage that is held makes the search for an equilibrium an elastic one, and damage that grows between two of them
+// dissipates what the body then no longer stores, however far a crack runs (docs/theory.md).
+GaveWay Equilibrium::give_way() {
+  if (!breaks_) return {};
   const std::int64_t before = broken_bonds(body_);
+  const double spent = stored_energies(body_).fracture;
   fracture_->start_rest(body_);
   const Field inner = inner_, with_loads = body_.force_density;
+  swap_strengths();
   advance(dt_, t_ + dt_, true);
-  const std::int64_t broken = body_.domain.communicator.sum(broken_bonds(body_) - before) / 2;
-  if (broken == 0) {
+  swap_strengths();
+  const GaveWay gave{body_.domain.communicator.sum(broken_bonds(body_) - before) / 2,
+                     stored_energies(body_).fracture > spent};
+  if (!gave.any()) {
     committed_.restore_materials(body_);  // to the last bit, whether a checkpoint is written here or not
     put_back(with_loads, body_);
-    return 0;
+    return gave;
   }
+  if (body_.domain.communicator.any(begin_flow(body_))) advance(0, t_ + dt_, true);
   left_.resize(body_.owned());
   for (int i = 0; i < body_.owned(); ++i) left_[i] = inner[i] - body_.domain.volume(i) * body_.force_density[i];
   committed_.take(body_);
   constraints_.emplace(held_directions(conditions_, body_, t_ + dt_, 0), body_);
-  return broken;
+  return gave;
+}
+
+void Equilibrium::swap_strengths() {
+  for (std::size_t b = 0; b < strengths_.size(); ++b) {
+    auto* law = std::get_if<materials::Brittle>(&body_.blocks[b].material.law);
+    if (law) std::swap(law->strength, strengths_[b]);
+  }
+}
+
+std::optional<Fracture> Equilibrium::take_fracture() {
+  if (fracture_) swap_strengths();
+  return std::move(fracture_);
 }
 
 double Equilibrium::work_of_jump() const {

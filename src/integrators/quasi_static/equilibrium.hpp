@@ -23,6 +23,14 @@ struct Imbalance {
   bool failed = false;   // a point inverted or its law found no stress; the numbers are then meaningless
 };
 
+// What has given way between two equilibria, on all ranks.
+struct GaveWay {
+  std::int64_t bonds = 0;
+  bool cells = false;  // softened
+
+  bool any() const { return bonds > 0 || cells; }
+};
+
 class Equilibrium {
  public:
   // Collective. Computes the forces of the undeformed state. Throws Error if a condition needs inertia.
@@ -36,10 +44,10 @@ class Equilibrium {
   // condition is not finite.
   void begin(double t, double dt);
 
-  // Collective, after commit(). Breaks the bonds that are beyond their limit, at the same positions, and returns how
-  // many there are on all ranks. If any, it begins a step without motion of conditions: the forces that the bonds have
-  // left are held at first, and fade.
-  std::int64_t break_bonds();
+  // Collective, after commit(). Breaks the bonds that are beyond their limit, at the same positions, and lets the
+  // stress of gradual cracks fall, whose damage trials hold. If any, it begins a step without motion of conditions: the
+  // forces that are lost are held at first, and fade.
+  GaveWay give_way();
   // Collective. The largest stretch of a bond over the one at which it breaks, in the last trial; 0 if none breaks.
   double largest_stretch() const { return breaks_ ? fracture_->largest_stretch(body_) : 0; }
   // J, of the last trial on this rank: work of the forces that faded, at least 0 where a stable body lost bonds.
@@ -81,7 +89,7 @@ class Equilibrium {
   Vector start(int i) const { return committed_.place(i); }
   const contact::Contact& contact() const { return contact_; }
   contact::Contact take_contact() { return std::move(contact_); }
-  std::optional<Fracture> take_fracture() { return std::move(fracture_); }
+  std::optional<Fracture> take_fracture();
   const Conditions& conditions() const { return conditions_; }
   // Collective. For the last trial: work of loads and of holding conditions over the step, by the mean of the forces at
   // its ends, along arcs where held points turn, J on this rank.
@@ -101,6 +109,7 @@ class Equilibrium {
     return advance_by_any_step(body_, dt, time, with_diagnostics, fracture_ ? &*fracture_ : nullptr);
   }
   bool may_break() const;
+  void swap_strengths();
   void check_values();
   double force_of_expansion();
   void add_contact();
@@ -114,7 +123,8 @@ class Equilibrium {
   contact::Contact contact_;
   std::optional<Fracture> fracture_;  // in trials no bond breaks, but springs lose stiffness with points that fail
   ToolContact tools_;
-  bool breaks_ = false;  // bonds break between trials
+  bool breaks_ = false;            // bonds break, and cells soften, between trials
+  std::vector<double> strengths_;  // of gradual cracks by blocks, Pa; infinite in trials, which hold their damage
   Committed committed_;
   std::optional<Constraints> constraints_;
   double t_ = 0, dt_ = 0, round_off_ = 0, last_scale_ = 0, largest_scale_ = 0, expansion_scale_ = 0;

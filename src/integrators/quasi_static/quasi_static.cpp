@@ -219,14 +219,14 @@ class Uninterrupted {
 
 }  // namespace
 
-// Breaks all bonds that are beyond their limit at once, while conditions rest, and searches for the next equilibrium;
-// repeats this as long as bonds are beyond their limit there. Returns the number of broken bonds. A stop request waits:
-// a checkpoint between these equilibria could not be continued.
+// Breaks all bonds that are beyond their limit at once and softens cells, while conditions rest, and searches for the
+// next equilibrium; repeats this as long as any gives way there. Returns the number of broken bonds. A stop request
+// waits: a checkpoint between these equilibria could not be continued.
 std::int64_t QuasiStatic::settle(EquilibriumSearch& search) {
   const Uninterrupted until_it_rests(observer_);
   std::int64_t all = 0;
-  while (const std::int64_t broken = equilibrium_.break_bonds()) {
-    all += broken;
+  for (GaveWay now = equilibrium_.give_way(); now.any(); now = equilibrium_.give_way()) {
+    all += now.bonds;
     const EquilibriumSearch found = search_in_rounds(control_.with_tangent);
     search.iterations += found.iterations, search.evaluations += found.evaluations, search.left = found.left;
     if (!found.converged) raise_no_equilibrium(all);
@@ -234,6 +234,7 @@ std::int64_t QuasiStatic::settle(EquilibriumSearch& search) {
     take_work();
     in_jumps_ += equilibrium_.body().domain.communicator.sum(equilibrium_.work_of_jump());
     equilibrium_.commit();
+    if (now.bonds == 0 && found.iterations == 0) break;  // the cells lost less than the tolerance
   }
   return all;
 }

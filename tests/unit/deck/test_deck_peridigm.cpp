@@ -804,7 +804,7 @@ TEST(DeckOfPeridigm, PointsThatFailAreThoseOfMetals) {
   refused(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 0.4, D3: 3.0"), "Damage Models > growing > D3: ");
 }
 
-// Solids whose stress falls before bonds break: ours, in the same deck. In equilibria it would fall and no bond break.
+// Solids whose stress falls before bonds break: ours, in the same deck.
 TEST(DeckOfPeridigm, GradualCracksAreThoseOfElasticCorrespondence) {
   const DeckFolder folder;
   const std::string cohesive =
@@ -826,9 +826,8 @@ TEST(DeckOfPeridigm, GradualCracksAreThoseOfElasticCorrespondence) {
   const std::string both =
       changed(quadratic, "Verlet: {Safety Factor: 0.7}",
               equilibria + "\n  Solver 2:\n    Final Time: 2.0e-5\n    Verlet: {Safety Factor: 0.7}");
-  EXPECT_NE(folder.error(both).find("Blocks > all of it > Damage Model: bonds cannot break with Solver > QuasiStatic"),
-            std::string::npos)
-      << folder.error(both);
+  EXPECT_NO_THROW(folder.read(both));
+  EXPECT_NO_THROW(folder.read(changed(quadratic, "Verlet: {Safety Factor: 0.7}", equilibria)));
   const std::string unknown = changed(both, "Damage Model: \"growing\"", "Damage Model: \"grown\"");
   EXPECT_NE(folder.error(unknown).find("Blocks > all of it > Damage Model: 'grown'"), std::string::npos)
       << folder.error(unknown);
