@@ -45,18 +45,6 @@ double mark_of(const Body& body, const Word& word) {
   return static_cast<double>(static_cast<std::uint64_t>(all) & digits);
 }
 
-// By their names, which conditions use; the order of the sets is free.
-double mark_of_sets(const Body& body, const std::set<std::string>& without) {
-  const std::vector<std::string>& all = body.domain.cloud.set_names;
-  std::vector<std::uint64_t> names = words_of(all);
-  for (std::size_t k = 0; k < all.size(); ++k) names[k] = without.contains(all[k]) ? 0 : names[k];
-  return mark_of(body, [&](int i) {
-    std::uint64_t sum = 0;
-    for (std::size_t k = 0; k < names.size(); ++k) sum += (body.domain.cloud.sets[i] >> k & 1) * names[k];
-    return sum;
-  });
-}
-
 double mark_of_blocks(const Body& body) {
   const std::vector<std::uint64_t> names = words_of(body.domain.cloud.block_names);
   return mark_of(body, [&](int i) { return names[body.domain.cloud.blocks[i]]; });
@@ -167,8 +155,20 @@ void serialize(Archive& archive, Body& body) {
   refit_flowed(body);
 }
 
+// By their names, which conditions use; the order of the sets is free.
+double mark_of_sets(const Body& body, const std::set<std::string>& without) {
+  const std::vector<std::string>& all = body.domain.cloud.set_names;
+  std::vector<std::uint64_t> names = words_of(all);
+  for (std::size_t k = 0; k < all.size(); ++k) names[k] = without.contains(all[k]) ? 0 : names[k];
+  return mark_of(body, [&](int i) {
+    std::uint64_t sum = 0;
+    for (std::size_t k = 0; k < names.size(); ++k) sum += (body.domain.cloud.sets[i] >> k & 1) * names[k];
+    return sum;
+  });
+}
+
 void serialize_sets(Archive& archive, const Body& body, const std::set<std::string>& without) {
-  Mark mark = {"node_sets", mark_of_sets(body, without), "in other node sets"};
+  Mark mark = {mark_of_sets_name, mark_of_sets(body, without), "in other node sets"};
   archive.number(mark.name, mark.kept);
   expect_same_mesh(body, mark.differs() ? std::vector<std::string>{mark.text} : std::vector<std::string>());
 }

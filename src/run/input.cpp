@@ -102,6 +102,14 @@ PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const C
   return cloud;
 }
 
+std::set<std::string> names_of_probes(const deck::Deck& deck) {
+  std::set<std::string> names;
+  for (const deck::NodeSet& set : deck.node_sets) {
+    if (set.nearest && !set.numbers) names.insert(set.name);
+  }
+  return names;
+}
+
 UserLibraries::UserLibraries(const deck::Deck& deck, const Communicator& communicator) {
   for (const deck::Material& material : deck.materials) {
     const auto* law = std::get_if<materials::UserLaw>(&material.law);

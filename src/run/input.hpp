@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, d
 // Returns true if it resumes from one with thermal strains.
 bool look_at_checkpoint(const deck::Deck& deck, bool begins_anew, const Communicator& communicator,
                         deck::Problems& problems);
+
+// The sets that only the history has, which may begin or end with any part of a run.
+std::set<std::string> names_of_probes(const deck::Deck& deck);
 
 // The contents of the deck's user libraries: no key shows that one has been compiled anew.
 class UserLibraries {

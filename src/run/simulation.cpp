@@ -52,15 +52,6 @@ Observer observer(const deck::Deck& deck, const Communicator& communicator, cons
   return observer;
 }
 
-// The sets that only the history has, which may begin or end with any part of a run.
-std::set<std::string> names_of_probes(const deck::Deck& deck) {
-  std::set<std::string> names;
-  for (const deck::NodeSet& set : deck.node_sets) {
-    if (set.nearest && !set.numbers) names.insert(set.name);
-  }
-  return names;
-}
-
 }  // namespace
 
 // The objects of a run. A step leaves a time and arrives at the next one.

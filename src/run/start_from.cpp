@@ -104,12 +104,29 @@ StartState::StartState(const deck::Deck& deck, const Communicator& communicator,
     problems.add(one + "; expected the bodies of " + facts_.file.string() + " (" + key + ")");
   spare_files(deck, problems);
   keeps_velocities_ = deck.start_from->keeps_velocities.value_or(!changes_.after_equilibria);
+}
+
+bool StartState::steps_go_on(const deck::Deck& deck) const {
   const double now = deck.solver.initial_time;
   const bool same_time = std::abs(now - facts_.time) <= round_off * std::abs(facts_.time);
   const bool with_velocities =
       changes_.after_equilibria || (keeps_velocities_ && (changes_.same_conditions || !has_initial_velocity(deck)));
-  goes_on_ = same_time && changes_.same_solver && changes_.same_contact && with_velocities &&
-             changes_.after_equilibria == deck.solver.quasi_static.has_value();
+  return same_time && changes_.same_solver && changes_.same_contact && with_velocities &&
+         changes_.after_equilibria == deck.solver.quasi_static.has_value();
+}
+
+// Sets of the mesh, and those of files of numbers, may hold other points although the decks are alike.
+void StartState::compare_sets(const deck::Deck& deck, const Body& body) {
+  const double here = mark_of_sets(body, names_of_probes(deck));
+  Snapshot found{.numbers = {{mark_of_sets_name, here}}};
+  const auto all = [](const std::string&) { return true; };
+  check_missing(facts_.file, io::read_checkpoint_parts(facts_, communicator_, all, found), communicator_);
+  other_sets_ = changes_.same_conditions && found.numbers.at(mark_of_sets_name) != here;
+  if (!other_sets_) return;
+  changes_.same_conditions = false;
+  deck::Problems problems;
+  refuse_displacements(deck, problems);
+  raise_together(communicator_, problems.text(deck.file.string()));
 }
 
 // A deck made from that of the other run names its files, too, which are in the folder of its checkpoint.
@@ -134,6 +151,8 @@ void StartState::spare_files(const deck::Deck& deck, deck::Problems& problems) c
 
 std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
   Body& body = scene.body;
+  compare_sets(deck, body);
+  goes_on_ = steps_go_on(deck);
   keep_expansion(facts_.has_expanded, body);
   const contact::Kinematics kinematics{body.domain, body.velocity, body.density};
   UserLibraries libraries(deck, communicator_);
@@ -191,6 +210,7 @@ std::string StartState::story(const deck::Deck& deck, const Scene& scene) const 
                                                   : "at rest")
        << (replaced ? ", but for the points of an Initial Velocity" : "") << "; " << stored.elastic << " J stored and "
        << stored.dissipated + stored.fracture << " J dissipated before are given, work counts from here";
+  if (other_sets_) text << "; node sets hold other points than there";
   if (!goes_on_ || !changes_.same_conditions)
     text << "; loads" << (scene.tools.empty() ? "" : ", rigid tools") << " begin anew";
   if (scene.contact.any() && !changes_.same_contact) text << "; contact begins anew, without friction";

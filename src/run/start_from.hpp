@@ -35,13 +35,15 @@ class StartState {
   template <class Solver>
   void take_steps(Solver& solver, void (Solver::*serialize)(Archive&));
   void spare_files(const deck::Deck& deck, deck::Problems& problems) const;
+  void compare_sets(const deck::Deck& deck, const Body& body);
+  bool steps_go_on(const deck::Deck& deck) const;
   bool takes_of_steps(const std::string& name) const;
   std::string story(const deck::Deck& deck, const Scene& scene) const;
 
   io::CheckpointFacts facts_;  // all that is read is of this file, also where its run goes on and replaces it
   Communicator communicator_;
   deck::StartChanges changes_;
-  bool keeps_velocities_ = false, goes_on_ = false;
+  bool keeps_velocities_ = false, goes_on_ = false, other_sets_ = false;
 };
 
 // Nothing, if the deck does not start from another run.

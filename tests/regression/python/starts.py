@@ -140,6 +140,32 @@ class Starts(InFolder):
                 self.assertIn("with its velocities;", run.log)
                 self.assertLess(np.abs(run.whole("Velocity") - before).max(), 1e-12 * np.abs(before).max())
 
+    def test_sets_of_other_points_under_the_same_names_are_other_conditions(self):
+        """Sets by numbers, of files beside the deck, which is the same; so are those of a mesh."""
+        solid = {"Material Model": "Elastic", "Density": 2700.0, "Young's Modulus": 70e9, "Poisson's Ratio": 0.25}
+        deck = block.deck(Materials={"metal": solid}, Solver={"Final Time": 2e-6}, History={"Frequency": 1})
+        foot = deck["Boundary Conditions"]["foot"]
+        pull = {"Type": "Prescribed Displacement", "Node Set": "Node Set P", "Coordinate": "x", "Value": "5*t"}
+        push = {**pull, "Type": "Prescribed Velocity"}
+        down = {"Type": "Initial Displacement", "Node Set": "all", "Coordinate": "z", "Value": 0.0}
+        for name, moves, error in (("pull", {"pull": pull}, "pull > Value: .* displaced otherwise"), ("push", {"push": push}, ""),
+                                   ("down", {"push": push, "down": down}, "'Initial Displacement' has no meaning")):
+            with self.subTest(name):
+                numbers = pathlib.Path("some.txt")
+                numbers.write_text("150 151")
+                deck = but(deck, Boundary_Conditions={"Node Set P": "some.txt", "foot": foot, **moves})
+                first = ended(deck, 12, block.mesh())
+                second = start(deck, "first.restart", first.time)
+                self.assertNotIn("begin anew", strut.Run(second, block.mesh()).log)
+                numbers.write_text("150 152")
+                if error:
+                    with self.assertRaisesRegex(strut.Error, error):
+                        strut.Run(second, block.mesh())
+                else:
+                    log = strut.Run(second, block.mesh()).log
+                    for told in ("goes on with its steps", "node sets hold other points than there; loads begin anew"):
+                        self.assertIn(told, log)
+
     def test_every_body_goes_on_with_the_same_bits(self):
         """Formulations and laws, symmetry planes, periodic sides, mass scaling."""
         metal = block.deck()["Materials"]["metal"]
