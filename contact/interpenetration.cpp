@@ -1,6 +1,7 @@
 #include "contact/interpenetration.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "contact/laws/surface.hpp"
@@ -19,7 +20,44 @@ constexpr double as_deep = 0.95;
 // 0.1 in a sheet of one cell.
 constexpr double as_far_in = 0.9;
 
-using Place = Vector (Domain::*)(int) const;
+// Where points are, now or in the reference state: between periodic sides moved by whole periods to within one from the
+// origin, since bodies may have passed several.
+class Places {
+ public:
+  static Places now(const Domain& domain) { return {domain, &Domain::current, domain.halo.stretch()}; }
+  static Places in_reference(const Domain& domain) { return {domain, &Domain::reference, Vector::Ones()}; }
+
+  Vector operator()(int i) const {
+    Vector x = (domain_.*place_)(i);
+    for (const Period& period : domain_.periods) {
+      const double length = period.length * stretch_[period.axis];
+      x[period.axis] -= length * std::floor(x[period.axis] / length);
+    }
+    return x;
+  }
+  // From there to the images behind periodic sides.
+  const std::vector<Vector>& to_images() const { return to_images_; }
+  // A box of places, as wide as the period: a block that a side divides goes on between its outermost points there.
+  Eigen::AlignedBox3d widened(Eigen::AlignedBox3d box) const {
+    for (const Period& period : domain_.periods) {
+      if (!box.isEmpty()) box.min()[period.axis] = 0, box.max()[period.axis] = period.length * stretch_[period.axis];
+    }
+    return box;
+  }
+
+ private:
+  using Place = Vector (Domain::*)(int) const;
+  Places(const Domain& domain, Place place, const Vector& stretch) : domain_(domain), place_(place), stretch_(stretch) {
+    if (domain.periods.empty()) return;
+    const Images images(domain.periods, 0);
+    for (const int image : images.of_body(0)) to_images_.push_back(images[image].stretched(stretch).shift);
+  }
+
+  const Domain& domain_;
+  Place place_;
+  Vector stretch_;
+  std::vector<Vector> to_images_;
+};
 
 // The points of one block, over all ranks.
 struct Extent {
@@ -27,15 +65,15 @@ struct Extent {
   std::int64_t points = 0;
 };
 
-std::vector<Extent> extents_of_blocks(const Domain& domain, Place place) {
+std::vector<Extent> extents_of_blocks(const Domain& domain, const Places& place) {
   std::vector<Extent> all(domain.blocks.size());
   for (int i = 0; i < domain.owned; ++i) {
     Extent& extent = all[domain.cloud.blocks[i]];
-    extent.box.extend((domain.*place)(i));
+    extent.box.extend(place(i));
     ++extent.points;
   }
   for (Extent& extent : all) {
-    extent.box = common_box(extent.box, domain.communicator);
+    extent.box = place.widened(common_box(extent.box, domain.communicator));
     extent.points = domain.communicator.sum(extent.points);
   }
   return all;
@@ -102,13 +140,18 @@ class Material {
   std::vector<double> volumes_;
 };
 
-// The material of a block: this rank's points within `box`, and those of other ranks near `mine`.
-Material material_of(const Domain& domain, int block, Place place, const Eigen::AlignedBox3d& box,
+// The material of a block: this rank's points and images within `box`, and those of other ranks near `mine`.
+Material material_of(const Domain& domain, int block, const Places& place, const Eigen::AlignedBox3d& box,
                      const Eigen::AlignedBox3d& mine, double near) {
   std::vector<Seen> points;
+  const auto add = [&](const Vector& x, int i) {
+    if (box.contains(x)) points.push_back({{x[0], x[1], x[2]}, domain.volume(i)});
+  };
   for (int i = 0; i < domain.owned; ++i) {
-    const Vector x = (domain.*place)(i);
-    if (domain.cloud.blocks[i] == block && box.contains(x)) points.push_back({{x[0], x[1], x[2]}, domain.volume(i)});
+    if (domain.cloud.blocks[i] != block) continue;
+    const Vector x = place(i);
+    add(x, i);
+    for (const Vector& to_image : place.to_images()) add(x + to_image, i);
   }
   add_nearby(points, mine, near, domain.communicator);
   return {points, domain.blocks[block].spacing, domain.cloud.at};
@@ -116,14 +159,14 @@ Material material_of(const Domain& domain, int block, Place place, const Eigen::
 
 // Collective. This rank's points of two blocks that are inside the other block.
 std::vector<int> points_inside(const Domain& domain, int first, int second, const Eigen::AlignedBox3d& overlap,
-                               Place place) {
+                               const Places& place) {
   std::vector<int> tested;
   Eigen::AlignedBox3d mine;
   for (int i = 0; i < domain.owned; ++i) {
     const int block = domain.cloud.blocks[i];
-    if ((block != first && block != second) || !overlap.contains((domain.*place)(i))) continue;
+    if ((block != first && block != second) || !overlap.contains(place(i))) continue;
     tested.push_back(i);
-    mine.extend((domain.*place)(i));
+    mine.extend(place(i));
   }
   // Distance to the nearest point, and the material around that point.
   const double near = (1 + reach_in_spacings) * std::max(domain.blocks[first].spacing, domain.blocks[second].spacing);
@@ -131,8 +174,7 @@ std::vector<int> points_inside(const Domain& domain, int first, int second, cons
   const Eigen::AlignedBox3d around(overlap.min() - margin, overlap.max() + margin);
   const Material one = material_of(domain, first, place, around, mine, near);
   const Material other = material_of(domain, second, place, around, mine, near);
-  std::erase_if(tested,
-                [&](int i) { return !(domain.cloud.blocks[i] == first ? other : one).holds((domain.*place)(i)); });
+  std::erase_if(tested, [&](int i) { return !(domain.cloud.blocks[i] == first ? other : one).holds(place(i)); });
   return tested;
 }
 
@@ -147,7 +189,7 @@ int one_of(const std::vector<int>& points, const Domain& domain) {
 }
 
 std::int64_t number_inside(const Domain& domain, int first, int second, const Eigen::AlignedBox3d& overlap,
-                           Place place) {
+                           const Places& place) {
   if (overlap.isEmpty()) return 0;
   const std::vector<int> inside = points_inside(domain, first, second, overlap, place);
   return domain.communicator.sum(static_cast<std::int64_t>(inside.size()));
@@ -158,12 +200,12 @@ std::optional<Interpenetration> interpenetration(const Domain& domain, const std
   const Eigen::AlignedBox3d overlap = extents[first].box.intersection(extents[second].box);
   const auto smaller = static_cast<double>(std::min(extents[first].points, extents[second].points));
   if (overlap.isEmpty()) return std::nullopt;
-  std::vector<int> inside = points_inside(domain, first, second, overlap, &Domain::current);
+  std::vector<int> inside = points_inside(domain, first, second, overlap, Places::now(domain));
   std::int64_t points = domain.communicator.sum(static_cast<std::int64_t>(inside.size()));
   if (!(static_cast<double>(points) > limit * smaller)) return std::nullopt;
-  const std::vector<Extent> before = extents_of_blocks(domain, &Domain::reference);
-  points -=
-      number_inside(domain, first, second, before[first].box.intersection(before[second].box), &Domain::reference);
+  const Places reference = Places::in_reference(domain);
+  const std::vector<Extent> before = extents_of_blocks(domain, reference);
+  points -= number_inside(domain, first, second, before[first].box.intersection(before[second].box), reference);
   const double part = static_cast<double>(points) / smaller;
   if (!(part > limit)) return std::nullopt;
   return Interpenetration{first, second, points, part, one_of(inside, domain)};
@@ -173,7 +215,7 @@ std::optional<Interpenetration> interpenetration(const Domain& domain, const std
 
 std::optional<Interpenetration> find_interpenetration(const Domain& domain, const Contact& contact, double limit) {
   const int blocks = static_cast<int>(domain.blocks.size());
-  const std::vector<Extent> extents = extents_of_blocks(domain, &Domain::current);
+  const std::vector<Extent> extents = extents_of_blocks(domain, Places::now(domain));
   for (int a = 0; a < blocks; ++a) {
     for (int b = a + 1; b < blocks; ++b) {
       if (domain.blocks[a].body == domain.blocks[b].body || !contact.between(a, b)) continue;
@@ -185,13 +227,14 @@ std::optional<Interpenetration> find_interpenetration(const Domain& domain, cons
 
 std::vector<Overlap> overlapping_blocks(const Domain& domain) {
   const int blocks = static_cast<int>(domain.blocks.size());
-  const std::vector<Extent> extents = extents_of_blocks(domain, &Domain::current);
+  const Places now = Places::now(domain);
+  const std::vector<Extent> extents = extents_of_blocks(domain, now);
   std::vector<Overlap> all;
   for (int a = 0; a < blocks; ++a) {
     for (int b = a + 1; b < blocks; ++b) {
       if (domain.blocks[a].body == domain.blocks[b].body) continue;
       const Eigen::AlignedBox3d overlap = extents[a].box.intersection(extents[b].box);
-      if (!overlap.isEmpty()) all.push_back({a, b, points_inside(domain, a, b, overlap, &Domain::current)});
+      if (!overlap.isEmpty()) all.push_back({a, b, points_inside(domain, a, b, overlap, now)});
     }
   }
   return all;

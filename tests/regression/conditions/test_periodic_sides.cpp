@@ -376,6 +376,34 @@ TEST(PeriodicContact, IsMissedWhereNoneIsDeclared) {
   }
 }
 
+// A block with soft contact is pushed into another one by half their height, and aside: as many points are inside
+// however many periods it has come, also where the side divides both blocks.
+TEST(PeriodicContact, ThatIsTooSoftIsSeenBehindAnySide) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0.2e-3, 0, 0}, 4, 4, 4, 1e-3) + cubes(2, {0.2e-3, 0, 7e-3}, 4, 4, 4, 1e-3));
+  Parts parts = thrown_block(contact_of({{"block_1", "block_2"}}, "0.6e-3", "1"));
+  parts.conditions = sides("x", "0", "10e-3");
+  Simulation run(folder, parts);
+  Domain& domain = run.scene.body.domain;
+  const auto points_inside = [&](double both, double aside) -> std::int64_t {
+    const Vector ways[] = {{both, 0, 0}, {both + aside, 0, -5e-3}};
+    for (int i = 0; i < domain.owned; ++i) {
+      domain.sites[i].current.head<3>() = (domain.reference(i) + ways[domain.cloud.blocks[i]]).array();
+    }
+    const auto found = contact::find_interpenetration(domain, run.solver.contact(), 0.01);
+    return found ? found->points : 0;
+  };
+  for (const double aside : {0.3e-3, 4.3e-3}) {
+    const std::int64_t expected = points_inside(0, aside);
+    EXPECT_EQ(expected > 0, aside < 1e-3);
+    for (const double both : {0., 8e-3}) {
+      for (const int periods : {-2, -1, 0, 1, 3}) {
+        EXPECT_EQ(points_inside(both, aside + periods * 10e-3), expected) << both << " " << periods;
+      }
+    }
+  }
+}
+
 // Layers of 4 mm along x that are one piece. Of three in a period of 12 mm, the first and the last are bonded through
 // the side; two in a period of 12 mm, bonded to each other in the cell, leave 4 mm between the second and an image.
 TEST(PeriodicContact, IsMissedByBlocksThatNoSideBonds) {
