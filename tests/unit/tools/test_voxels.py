@@ -417,6 +417,17 @@ class Cells(ToolTest):
         said, mesh = self.voxels((8000 - image).astype("i2"), "--density", 0.1, "--invert", "--spurs", "drop")
         self.assertLess(abs(len(mesh.blocks["foam"]) / (0.1 * 32**3) - 1), 1e-3, said["density"])
 
+    def test_noise_takes_no_mass_from_the_inside(self):
+        image = np.full((24, 24, 24), 60.0)
+        image[4:20, 4:20, :] = 180
+        noisy = (image + np.random.default_rng(2).normal(0, 15, image.shape)).astype("i2")
+        # 16 x 16 of 24 x 24 voxels, sharp. The clip takes 0.05 of a voxel from each of 60 at the surface of a layer and gives as
+        # much to each of 68 in the rim: +0.16 %; as much again for cells that are dropped. From all voxels it would take 4.9 %.
+        for words in (("--grey", 60, 180), ("--grey", "--density", 4 / 9)):
+            with self.subTest(words):
+                _, _, cells = self.cells(noisy, "--cells", 2, "--smallest-cell", 0, *words)
+                self.assertLess(abs(cells[:, 0].sum() / (16 * 16 * 24e-9) - 1), 5e-3)
+
     def test_materials_are_blocks_that_share_nodes(self):
         image = box((6, 8, 10), (1, 5), (1, 7), (0, 4)) * 90 + box((6, 8, 10), (1, 5), (1, 7), (4, 10)) * 200
         image[2, 3, 2] = 100  # belongs to the first: not larger than 100
