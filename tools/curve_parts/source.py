@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import strut_tools
-from decks import value_at, value_in
+from decks import box_of, value_at, value_in
 from scipy.integrate import cumulative_trapezoid
 from strut_tools import Parser, fail, nearest
 
@@ -286,9 +286,9 @@ def sample(deck, axis, block, words):
 def size_of(deck, block, words, found):
     recipe = deck and deck.recipe()
     body = recipe and recipe.body(block)
-    if body and body.get("shape") in ("foam", "box"):
+    if body and body.get("shape") in ("foam", "box", "lattice"):
         found["size"] = f"from {recipe.path}"
-        return [float(x) for x in body["size"].split()]
+        return box_of(body)
     mesh = deck and deck.file("Discretization", "Input Mesh File")
     size = mesh and extent.size_of(mesh, block)
     if size is not None:

@@ -139,6 +139,14 @@ class Extents(InFolder):
         self.assertIsNone(extent.size_of(str(self.folder / "none.g"), "foam"))
         self.assertIsNone(extent.size_of(self.write(np.full((1, 3), 0.5), element=None), "foam"))
 
+    def test_a_lattice_is_as_large_as_its_recipe_says_and_not_as_its_struts_reach(self):
+        self.write(np.array([[0.5, 0.5, 0.5]]))
+        deck = self.folder / "a.yaml"
+        deck.write_text("A: {Discretization: {Input Mesh File: m.g}}\n")
+        for lines, expected in (("size = 2 3 4", [2, 3, 4]), ("count = 2 3 4\ncell = 0.5", [1, 1.5, 2]), ("count = 4\ncell = 0.5", [2, 2, 2])):
+            (self.folder / "m.recipe").write_text(f"shape = lattice\nlattice = bcc\n{lines}\n")
+            self.assertEqual(source.size_of(Deck(str(deck)), None, None, {}), expected)
+
     def test_what_moves_outer_points_leaves_half_a_spacing_at_each_end(self):
         self.write(np.array([[0.5, 0.5, z + 0.5] for z in range(5)]))
         deck = self.folder / "a.xml"
