@@ -245,12 +245,13 @@ def shortening(deck, table, axis, words):
 
 def unstrained(deck, block, axis, height, how):
     """What part of the height a motion of outer points leaves unstrained; None if it moves nodes, or sides. The distance
-    of layers is corrected for it."""
+    of layers is corrected for it. By virtual work the force on the outer points, over the area, exceeds the mean stress by the
+    height over the strained part of it."""
     if not how.startswith(("Mean_Displacement", "the motion")) or (deck and deck.get("Discretization", "Points") == "Nodes"):
         return None
     edge = extent.edge_of(deck and deck.file("Discretization", "Input Mesh File"), block, axis)
     share = f", {100 * edge / height:.2g} % of the height in all" if edge else ""
-    return f"half a spacing at each end{share}: the outer points are the middles of cells, so that strain is too small by that"
+    return f"half a spacing at each end{share}: the outer points are the middles of cells, so that strain is too small by that, and stress too large"
 
 
 def layers(table, axis, wanted=None):

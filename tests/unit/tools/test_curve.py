@@ -157,6 +157,8 @@ class Extents(InFolder):
                             '<Parameter name="Input Mesh File" value="m.g"/></ParameterList></a>')
             found = source.unstrained(Deck(str(deck)), "foam", 2, 5, how)
             self.assertEqual(found and found[:len(expected)], expected)
+            if found:
+                self.assertIn("strain is too small by that, and stress too large", found)
         self.assertIn("half a spacing at each end: ", source.unstrained(None, None, 2, 5, "Mean_Displacement_Z(top)"))  # unknown
 
     def test_a_lattice_of_points_ends_half_a_step_of_each_axis_beyond_them(self):
