@@ -290,6 +290,10 @@ def size_of(deck, block, words, found):
     if body and body.get("shape") in ("foam", "box", "lattice"):
         found["size"] = f"from {recipe.path}"
         return box_of(body)
+    lengths = [deck and deck.get("Discretization", "TensorProduct3DMeshGenerator", f"{c} Length") for c in "XYZ"]
+    if block is None and all(lengths):
+        found["size"] = f"from the grid of {deck.path}"
+        return [float(length) for length in lengths]
     mesh = deck and deck.file("Discretization", "Input Mesh File")
     size = mesh and extent.size_of(mesh, block)
     if size is not None:

@@ -147,6 +147,11 @@ class Extents(InFolder):
             (self.folder / "m.recipe").write_text(f"shape = lattice\nlattice = bcc\n{lines}\n")
             self.assertEqual(source.size_of(Deck(str(deck)), None, None, {}), expected)
 
+    def test_a_grid_of_the_deck_is_as_large_as_its_lengths(self):
+        deck = self.folder / "a.yaml"
+        deck.write_text("A: {Discretization: {Type: PdQuickGrid, TensorProduct3DMeshGenerator: {X Length: 2, Y Length: 3.0, Z Length: 4e-3}}}\n")
+        self.assertEqual(source.size_of(Deck(str(deck)), None, None, {}), [2, 3, 4e-3])
+
     def test_what_moves_outer_points_leaves_half_a_spacing_at_each_end(self):
         self.write(np.array([[0.5, 0.5, z + 0.5] for z in range(5)]))
         deck = self.folder / "a.xml"
