@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import strut_tools
-from decks import value_at, value_in
+from decks import box_of, value_at, value_in
 from scipy.integrate import cumulative_trapezoid
 from strut_tools import Parser, fail, nearest
 
@@ -245,12 +245,13 @@ def shortening(deck, table, axis, words):
 
 def unstrained(deck, block, axis, height, how):
     """What part of the height a motion of outer points leaves unstrained; None if it moves nodes, or sides. The distance
-    of layers is corrected for it."""
+    of layers is corrected for it. By virtual work the force on the outer points, over the area, exceeds the mean stress by the
+    height over the strained part of it."""
     if not how.startswith(("Mean_Displacement", "the motion")) or (deck and deck.get("Discretization", "Points") == "Nodes"):
         return None
     edge = extent.edge_of(deck and deck.file("Discretization", "Input Mesh File"), block, axis)
     share = f", {100 * edge / height:.2g} % of the height in all" if edge else ""
-    return f"half a spacing at each end{share}: the outer points are the middles of cells, so that strain is too small by that"
+    return f"half a spacing at each end{share}: the outer points are the middles of cells, so that strain is too small by that, and stress too large"
 
 
 def layers(table, axis, wanted=None):
@@ -286,9 +287,13 @@ def sample(deck, axis, block, words):
 def size_of(deck, block, words, found):
     recipe = deck and deck.recipe()
     body = recipe and recipe.body(block)
-    if body and body.get("shape") in ("foam", "box"):
+    if body and body.get("shape") in ("foam", "box", "lattice"):
         found["size"] = f"from {recipe.path}"
-        return [float(x) for x in body["size"].split()]
+        return box_of(body)
+    lengths = [deck and deck.get("Discretization", "TensorProduct3DMeshGenerator", f"{c} Length") for c in "XYZ"]
+    if block is None and all(lengths):
+        found["size"] = f"from the grid of {deck.path}"
+        return [float(length) for length in lengths]
     mesh = deck and deck.file("Discretization", "Input Mesh File")
     size = mesh and extent.size_of(mesh, block)
     if size is not None:

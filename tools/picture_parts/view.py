@@ -145,8 +145,10 @@ class Scene:
         blocks, named = blocks_of(result, wanted.blocks), [b.name for b in blocks_of(result, wanted.glass)]
         variables = wanted.variables or [name for name in USUAL if result.has(name)] or ["Displacement"]
         self.rows = [Row(result, name, self.frames) for name in variables]
-        idle = {name for row in self.rows for name in row.idle(blocks)}
-        glass = named if wanted.glass else idle if wanted.glass is None else []
+        idle = {name: row.name for row in self.rows for name in row.idle(blocks)} if wanted.glass is None else {}
+        glass = named if wanted.glass else idle
+        for block, name in idle.items():
+            print(f"block '{block}' is grey glass for all variables, as {name} stays 0 in it; --glass without a name draws it solid", flush=True)
         for row in self.rows:
             row.scale(blocks, glass, wanted.limits)
         self.layers = [[b for b in blocks if (b.name in glass) == see_through] for see_through in (False, True)]

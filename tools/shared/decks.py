@@ -182,6 +182,14 @@ class Recipe:
         return named[0] if named else bodies[0] if len(bodies) == 1 else None
 
 
+def box_of(body):
+    """Edges of the box that a body of a recipe fills, m; a lattice may have the count of its cells instead (KeyError: neither)."""
+    if "size" in body:
+        return [float(length) for length in body["size"].split()]
+    counts = [float(count) for count in body["count"].split()]
+    return [float(body["cell"]) * count for count in (counts if len(counts) > 1 else counts * 3)]
+
+
 # Expressions: the language of decks (inputs/KEYS.md), as the program reads it: strut-evaluate is asked
 
 

@@ -10,8 +10,8 @@ from .loads import ORDER
 def text_of(kind, C, energy):
     unit = 10.0**(3 * int(np.floor(np.log10(np.abs(C).max()) / 3)))
     named = {1e9: "GPa", 1e6: "MPa", 1e3: "kPa"}.get(unit, f"{unit:g} Pa")
-    lines = [f"{kind} boundaries, {named}", " " * 4 + "".join(f"{c:>10}" for c in ORDER)]
-    lines += [f"{c:<4}" + "".join(f"{x / unit:>10.4g}" for x in row) for c, row in zip(ORDER, C)]
+    lines = [f"{kind} boundaries, {named}", " " * 4 + "".join(f"{c:>11}" for c in ORDER)]
+    lines += [f"{c:<4}" + "".join(f"{x / unit:>11.4g}" for x in row) for c, row in zip(ORDER, C)]
     e = tensors.engineering(C)
     K_V, G_V, K_R, G_R = tensors.bounds(C)
     lines += [", ".join(f"{name} {e[name] / unit:.4g}" for name in e if not name.startswith("nu")),

@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 
 from curve_parts import source
-from decks import Deck
+from decks import Deck, box_of
 from strut_tools import fail, nearest, number
 
 from . import collect, names, plan
@@ -41,6 +41,10 @@ def refine(study, ratio, count):
     if recipe is None:
         fail(f"{deck.path}: its mesh has no recipe beside it whose spacing could be refined: expected one, or a study that varies "
              f"the spacing")
+    file = next((body for body in recipe.bodies() if body.get("shape") == "file"), None)
+    if file:
+        fail(f"{recipe.path}: the body '{file.get('file')}' is a file, whose cells would stay as they are: expected a study that sets the "
+             "file and the spacing for each grid")
     bodies = spaced(recipe)
     if not bodies:
         fail(f"{recipe.path} has no line 'spacing' to refine")
@@ -81,7 +85,7 @@ def spacing_of(recipe):
     try:
         h = float(body["spacing"])
         if body.get("shape") in ("box", "foam", "lattice"):
-            return math.prod(length / whole(length / h) for length in map(float, body["size"].split()))**(1 / 3)
+            return math.prod(length / whole(length / h) for length in box_of(body))**(1 / 3)
         layer = float(body["length"]) / whole(float(body["length"]) / h)
         if body.get("shape") == "cylinder" and body.get("method", "lattice") == "lattice":
             return layer

@@ -139,6 +139,19 @@ class Extents(InFolder):
         self.assertIsNone(extent.size_of(str(self.folder / "none.g"), "foam"))
         self.assertIsNone(extent.size_of(self.write(np.full((1, 3), 0.5), element=None), "foam"))
 
+    def test_a_lattice_is_as_large_as_its_recipe_says_and_not_as_its_struts_reach(self):
+        self.write(np.array([[0.5, 0.5, 0.5]]))
+        deck = self.folder / "a.yaml"
+        deck.write_text("A: {Discretization: {Input Mesh File: m.g}}\n")
+        for lines, expected in (("size = 2 3 4", [2, 3, 4]), ("count = 2 3 4\ncell = 0.5", [1, 1.5, 2]), ("count = 4\ncell = 0.5", [2, 2, 2])):
+            (self.folder / "m.recipe").write_text(f"shape = lattice\nlattice = bcc\n{lines}\n")
+            self.assertEqual(source.size_of(Deck(str(deck)), None, None, {}), expected)
+
+    def test_a_grid_of_the_deck_is_as_large_as_its_lengths(self):
+        deck = self.folder / "a.yaml"
+        deck.write_text("A: {Discretization: {Type: PdQuickGrid, TensorProduct3DMeshGenerator: {X Length: 2, Y Length: 3.0, Z Length: 4e-3}}}\n")
+        self.assertEqual(source.size_of(Deck(str(deck)), None, None, {}), [2, 3, 4e-3])
+
     def test_what_moves_outer_points_leaves_half_a_spacing_at_each_end(self):
         self.write(np.array([[0.5, 0.5, z + 0.5] for z in range(5)]))
         deck = self.folder / "a.xml"
@@ -149,6 +162,8 @@ class Extents(InFolder):
                             '<Parameter name="Input Mesh File" value="m.g"/></ParameterList></a>')
             found = source.unstrained(Deck(str(deck)), "foam", 2, 5, how)
             self.assertEqual(found and found[:len(expected)], expected)
+            if found:
+                self.assertIn("strain is too small by that, and stress too large", found)
         self.assertIn("half a spacing at each end: ", source.unstrained(None, None, 2, 5, "Mean_Displacement_Z(top)"))  # unknown
 
     def test_a_lattice_of_points_ends_half_a_step_of_each_axis_beyond_them(self):

@@ -42,8 +42,11 @@ def bricks():
 
 
 class Meshes(InFolder):
+    def begun(self, text):
+        return subprocess.run(["bash", "-c", text.replace("tools/", f"{TOOLS}/")], capture_output=True, text=True, cwd=self.folder)
+
     def run_block(self, text):
-        done = subprocess.run(["bash", "-c", text], capture_output=True, text=True, cwd=self.folder)
+        done = self.begun(text)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def write_inp(self):
@@ -74,6 +77,13 @@ class Meshes(InFolder):
         self.assertAlmostEqual(plastic, 4.14, delta=0.005)  # as the page prints it
         kinetic = 0.5 * 7800 * 128e-9 * 100 ** 2
         self.assertAlmostEqual(kinetic, 4.99, delta=0.005)
+
+    def test_bricks_of_two_parts_are_refused(self):
+        self.write_inp()
+        with open(self.folder / "bar.inp", "a") as file:
+            file.write("*Node\n1, 0., 0., 0.\n")
+        self.assertIn("a second *NODE, the first is in line 1", self.begun(commands()[0]).stderr)
+        self.assertFalse((self.folder / "bar.e").exists())
 
     def test_bricks_of_ls_dyna_become_a_block_for_each_part(self):
         lines = ["*KEYWORD", "$ bricks of 1 mm", "*NODE"]

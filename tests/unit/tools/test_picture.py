@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """tools/picture, run as a user runs it, on small results that are written here: is what is seen where it should be, in the
 color that the scale gives to its value?"""
+import contextlib
+import io
 import os
 import sys
 import unittest
@@ -230,7 +232,9 @@ class Pictures(InFolder):
         write_result(self.folder / "foam.e", {"foam": foam, "plate": plate}, still,
                      {"Equivalent_Plastic_Strain": np.stack([0 * strain, strain]), "Von_Mises_Stress": np.stack([stress] * 2)})
         front = {"view": (0, -1, 0), "frames": 1}
-        scene = self.scene("foam.e", **front)
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            scene = self.scene("foam.e", **front)
+        self.assertIn("block 'plate' is grey glass for all variables, as Equivalent_Plastic_Strain stays 0 in it", said.getvalue())
         self.assertEqual([row.high for row in scene.rows], [0.5, 1e8])
         right, down = (int(p) for p in scene.camera.position([3 * H, 0, 7 * H]))
         found = scene.images([0])[1, 0][down, right]

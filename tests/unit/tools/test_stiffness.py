@@ -13,7 +13,7 @@ import netCDF4
 import numpy as np
 from decks import section
 from exodus import write_mesh
-from stiffness_parts import faces, tensors
+from stiffness_parts import faces, show, tensors
 
 
 def isotropic(young_modulus, ratio):
@@ -45,6 +45,12 @@ class Samples(InFolder):
         self.assertGreater((self.folder / name / "stiffness.png").stat().st_size, 20000)
         return {kind: np.array([[float(x) for x in row[2:]] for row in rows if row[0] == kind])
                 for kind in dict.fromkeys(row[0] for row in rows)}
+
+    def test_numbers_of_the_table_stand_apart(self):
+        C = isotropic(2e9, 0.3)
+        C[0, 3:] = -0.1435e9, -0.7019e6, -7.019e4
+        row = show.text_of("mixed", C, 0).splitlines()[2]
+        self.assertEqual(row.split()[4:], ["-0.1435", "-0.0007019", "-7.019e-05"])
 
     @unittest.skipUnless("STRUT" in os.environ, "STRUT names no program")
     def test_a_homogeneous_block_has_the_stiffness_of_its_material(self):

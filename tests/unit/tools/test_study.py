@@ -312,7 +312,7 @@ echo "WARNING: blocks a and b meet at about t = $t s"; echo "WARNING: blocks a a
         self.assertEqual(self.study("--converge", "spacing", "--ratio", "2", "bar.xml", "out", **programs)[0], 0)  # a third one
         self.assertAlmostEqual(float(self.convergence()["Mean_Displacement_Z"]["order"]), 1.5, delta=1e-7)
 
-    def test_bodies_are_refined_in_proportion_and_graded_ones_are_refused(self):
+    def test_bodies_are_refined_in_proportion_and_graded_ones_and_files_are_refused(self):
         (self.folder / "bar.recipe").write_text("[body]\nname = foam\nshape = foam\nspacing = 1e-3\n[body]\nname = plate\nspacing = 2e-3\n")
         study = grids.study_of_deck(str(self.folder / "bar.xml"))
         grids.refine(study, 2, 3)
@@ -323,6 +323,10 @@ echo "WARNING: blocks a and b meet at about t = $t s"; echo "WARNING: blocks a a
         status, _, errors = self.study("--converge", "spacing", "bar.xml", "out")
         self.assertEqual((status, errors.count("\n")), (1, 1), errors)
         self.assertIn("the layers of 'bar' are graded", errors)
+        (self.folder / "bar.recipe").write_text("[body]\nshape = file\nfile = skins.g\n[body]\nname = core\nspacing = 1e-3\n")
+        status, _, errors = self.study("--converge", "spacing", "bar.xml", "out")
+        self.assertEqual((status, errors.count("\n")), (1, 1), errors)
+        self.assertIn("the body 'skins.g' is a file, whose cells would stay", errors)
 
     @unittest.skipUnless("STRUT_MESH" in os.environ, "STRUT_MESH names no program")
     def test_the_spacing_as_meshed_is_that_of_the_volume_of_a_cell(self):
@@ -333,6 +337,12 @@ echo "WARNING: blocks a and b meet at about t = $t s"; echo "WARNING: blocks a a
             out = subprocess.run([os.environ["STRUT_MESH"], path, self.folder / "one.g"], capture_output=True, text=True, check=True).stdout
             points = int(re.search(r"([\d,]+) points", out)[1].replace(",", ""))
             self.assertAlmostEqual(grids.spacing_of(Recipe(str(path))), (volume / points) ** (1 / 3), delta=1e-15)  # round-off
+
+    def test_a_lattice_may_have_the_count_of_its_cells(self):
+        path = self.folder / "one.recipe"
+        for count, edges in (("2 2 1", (4e-3 / 13, 4e-3 / 13, 2e-3 / 7)), ("2", (4e-3 / 13,) * 3)):
+            path.write_text(f"shape = lattice\nlattice = bcc\ncount = {count}\ncell = 2e-3\nspacing = 0.3e-3\n")
+            self.assertAlmostEqual(grids.spacing_of(Recipe(str(path))), math.prod(edges) ** (1 / 3), delta=1e-15)
 
     def test_results_that_lie_beside_the_deck_stay_as_they_are(self):
         mine = {"bar.csv": "Time,Mean_Velocity_Z\n0,7\n", "bar.e": "mine", "bar.restart": "mine", "bar.g": "mine"}
