@@ -33,8 +33,4 @@ const std::vector<LawEntry>& laws() {
   return entries;
 }
 
-bool knows_temperature(const materials::AnyLaw& law) {
-  return std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, law);
-}
-
 }  // namespace strut::deck

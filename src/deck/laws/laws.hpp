@@ -20,9 +20,6 @@ struct LawEntry {
 
 const std::vector<LawEntry>& laws();
 
-// True if its points have a temperature, which follows from their flow.
-bool knows_temperature(const materials::AnyLaw& law);
-
 // J2 plasticity, with heat and an equation of state if the deck asks for them.
 Section metal_section();
 materials::AnyLaw make_metal(const Values& material, Problems& problems);

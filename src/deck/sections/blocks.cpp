@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "deck/laws/laws.hpp"
 #include "deck/sections/several_sections.hpp"
 
 namespace strut::deck {
@@ -87,8 +86,12 @@ bool asks_for_temperature(const DamageModel& model) {
   return johnson_cook && johnson_cook->constants[4] != 0;
 }
 
+bool knows_temperature(const Material& material) {
+  return std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
+}
+
 void check_temperature(const Values& section, const Material& material, Problems& problems) {
-  if (!section.given(initial_temperature) || material.name.empty() || knows_temperature(material.law)) return;
+  if (!section.given(initial_temperature) || material.name.empty() || knows_temperature(material)) return;
   problems.add(section.path_to(initial_temperature),
                "given, but material '" + material.name +
                    "' does not depend on it; expected one with Softening, another Flow Stress, Heating, an Equation of "
@@ -162,7 +165,7 @@ void check_damage_model(const Values& section, const Material& material, const N
             "': expected the Material Model 'Elastic Correspondence' with Stabilization 'Mean Gradient' or Formulation "
             "'Quadratic Correspondence'");
   }
-  if (is_known && asks_for_temperature(model) && !knows_temperature(material.law)) {
+  if (is_known && asks_for_temperature(model) && !knows_temperature(material)) {
     problems.add(section.path_to(damage_model),
                  "'" + named.name + "' has D5, but material '" + material.name +
                      "' does not know its temperature; expected one that does, or no D5");

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/numbers.hpp"
-#include "deck/laws/laws.hpp"
 #include "deck/problems.hpp"
 #include "mechanics/hindered_breaks.hpp"
 
@@ -47,7 +46,8 @@ void check_others(const std::vector<Material>& materials, const std::vector<Bloc
 
 void check_condition(const std::vector<Material>& materials, const std::string& path, Problems& problems) {
   for (const Material& material : materials) {
-    if (!knows_temperature(material.law)) continue;
+    const bool knows_its_own = std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
+    if (!knows_its_own) continue;
     problems.add(path, "'Prescribed Temperature' beside material '" + material.name +
                            "', whose temperature follows from its flow; expected materials without Softening, another "
                            "Flow Stress, Heating, an Equation of State or a Shear Modulus Slope");

@@ -102,7 +102,8 @@ Key model() {
 
 void read_expansion(const Values& values, Material& material, Problems& problems) {
   material.thermal_expansion = values[thermal_expansion];
-  if (material.thermal_expansion == 0 || !knows_temperature(material.law)) return;
+  const bool knows_temperature = std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
+  if (material.thermal_expansion == 0 || !knows_temperature) return;
   problems.add(values.path_to(thermal_expansion),
                "given, but this metal's temperature follows from its flow, by which it does not expand; expected none, "
                "or no Softening, other Flow Stress, Heating, Equation of State and Shear Modulus Slope");

@@ -132,7 +132,7 @@ class PartsOfFile {
   bool has(const std::string& list) const {
     const auto found = std::find(lists_.begin(), lists_.end(), list);
     if (found == lists_.end()) return false;
-    if (sums_[1 + (found - lists_.begin())] != sum_of<T>(file_, list)) damaged(told(list));
+    if (sums_[1 + (found - lists_.begin())] != sum_of<T>(file_, list)) damaged(in_words(list));
     return true;
   }
 
@@ -175,13 +175,14 @@ class PartsOfFile {
       if (!there) missing.push_back(name);
     }
   }
-  // "'velocity' of all points"
-  std::string told(const std::string& list) const {
+  // "'velocity' of all points".
+  std::string in_words(const std::string& list) const {
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       const std::string begin = name_of(g, "");
       if (list.starts_with(begin)) return "'" + list.substr(begin.size()) + "' of " + groups_[g];
     }
-    return "'" + list + "'";
+    const std::string share = name_of_share("");
+    return "'" + (list.starts_with(share) ? list.substr(share.size()) : list) + "'";
   }
   [[noreturn]] void damaged(const std::string& what) const {
     throw Error(path_.string() + ": is damaged: the check sum of " + what + " is not that of its contents");
