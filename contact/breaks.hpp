@@ -30,8 +30,8 @@ struct PressedPair {
 // The pairs that have a limit in pairs.limits.
 std::vector<PressedPair> pressed_pairs(const Pairs& pairs);
 
-// Call it after a search. Sets pairs.limits: for the pairs in `pressed` their distance `touching`, for pairs whose
-// bonds this search is the first to find broken their present distance. `radius`: r_c, m.
+// Call it after a search. Sets pairs.limits: to `touching` for the pairs in `pressed`; to the present distance for
+// pairs whose bonds have broken since the previous search. `radius`: r_c, m.
 void set_limits(const Domain& domain, const BlockPair& blocks, double radius, const BrokenCounts& before,
                 const BrokenCounts& now, std::span<const PressedPair> pressed, Pairs& pairs);
 

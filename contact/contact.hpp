@@ -39,12 +39,12 @@ class Contact {
   // led here (s), 0 at the start.
   void add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density);
 
-  // Collective, after the forces at the start. Adds to stiffness() the points that would touch within a first step of
-  // dt (s) at the velocities of `kinematics`.
+  // Collective, after the forces at the start. Raises stiffness() to include the points, not of surfaces, that would
+  // touch within a first step of dt (s) at the velocities of `kinematics`.
   void foresee(const Kinematics& kinematics, double dt);
 
-  // add_forces for a trial of an equilibrium: friction (of surfaces) starts from the last commit; `increments`: of
-  // the displacements of the owned points since then, m.
+  // add_forces for a trial of an equilibrium: friction (of surfaces) starts from the last commit; `increments`:
+  // displacements of the owned points since that commit, m.
   void add_trial_forces(const Kinematics& kinematics, std::span<const Vector> increments,
                         std::vector<Vector>& force_density);
   // Call it before the last trial is committed: work of friction since the last commit on this rank's points, J.
@@ -83,12 +83,12 @@ class Contact {
   // velocities from `before` to `after`.
   FrictionWork friction_work(double impulse_time, std::span<const Vector> before, std::span<const Vector> after) const;
 
-  // Adds this rank's forces on mirror images of points by the couples of friction, N, to those of domain.mirrors; of
-  // all contact through periodic sides to those of domain.periods.
+  // Adds to the forces of domain.mirrors, N, those of the mirror images on this rank's points by couples of friction;
+  // to the forces of domain.periods those of all contact through the sides.
   void add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const;
 
-  // Adds `amount` to the entry of each of this rank's points on which the last contact forces, of surfaces or points,
-  // acted.
+  // Adds `amount` to the entry of each of this rank's points, once for each contact pair whose last normal force on
+  // it was not zero.
   void add_where_touched(double amount, std::span<double> of_points) const;
 
   // Marks owned points that touch, or will in a step like the last one; by surfaces, those with a contact force.
@@ -116,8 +116,8 @@ class Contact {
     std::vector<PressedPair> pressed = {};  // of a checkpoint, for the next search
     // As of the last check of the skin distances.
     Vector mean_velocity = Vector::Zero();  // m/s
-    double used = 0;     // a bound of the fraction of its skin distance that any point has used since the last search
-    bool meets = false;  // points whose bonds have broken since then are near each other
+    double used = 0;     // in each step: bound of the fraction of a skin distance that a point has used since a search
+    bool meets = false;  // in each step: points whose bonds have broken since the search are near each other
     bool check_due = true;  // `used` is near 1: the skin distances must be checked in the next step
     ForceResult result = {};
     std::vector<Load> loads = {};       // of pairs.owned, if the model is one of points

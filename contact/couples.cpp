@@ -136,7 +136,7 @@ void Couples::add_mirror_reactions(const Domain& domain, std::vector<Vector>& of
   for (std::size_t m = 0; m < reactions.size(); ++m) of_mirrors[m] += reactions[m];
 }
 
-// The forces of a couple cancel: from the side of its point, those on the points behind a side go through it.
+// The forces of a couple cancel, so its forces on points behind a side act through that side.
 Vector Couples::through_sides(const Domain& domain) const {
   Vector sum = Vector::Zero();
   if (forces_.empty() || domain.periods.empty()) return sum;

@@ -9,7 +9,7 @@
 
 namespace strut::contact {
 
-// A patch: a piece of a body that takes friction as a whole. Friction acts at one position on both bodies, else it
+// A patch: a piece of a body that takes friction as a whole. Friction acts on both bodies at one position; at two it
 // would rotate them. Off its points a patch moves like a rigid body with the mean motion of its points, and a force
 // there acts as a force at its center and a couple. Motion and force are transposes of each other, so friction does no
 // work on bodies that stick to each other.
@@ -18,7 +18,7 @@ struct Patch {
   Vector middle = Vector::Zero();      // m
   Tensor per_couple = Tensor::Zero();  // rotation θ per couple: points get the forces weight θ × (position − middle)
   double smallest = 0;                 // smallest moment of its points about any axis, weight m²
-  bool turns = false;                  // about any axis: its points are not in one line
+  bool turns = false;                  // can take couples about all axes: its points are not in one line
   Vector row = Vector::Zero();         // unit vector along the line; zero if the patch turns, or is like one point
 };
 

@@ -132,8 +132,8 @@ std::vector<Slider> sliders(const Kinematics& kinematics, const ContactLaw auto&
   return all;
 }
 
-// Fraction of the vector from a point to its partner at which friction acts on both: midway, or at the one that cannot
-// take a couple.
+// Position at which friction acts on a point and its partner, as a fraction of the vector between them: midway, or at
+// the one that cannot take a couple.
 double place_of_friction(const Slider& here, const Slider& there) { return 0.5 * (1 + here.turns - there.turns); }
 
 // The normal of two surfaces of points, from the normal forces on both. The direction of a single pair oscillates as

@@ -33,7 +33,7 @@ struct ForceResult {
   double stiffness = 0;
 };
 
-// The load on a point by its touching partners.
+// The contact forces on a point by its touching partners.
 struct Load {
   Vector push = Vector::Zero();     // the sum of their normal forces, N
   Tensor springs = Tensor::Zero();  // the tensor whose largest eigenvalue is ForceResult::stiffness, 1/s²

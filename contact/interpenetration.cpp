@@ -13,11 +13,11 @@ namespace strut::contact {
 
 namespace {
 
-// A position is inside a body from this fraction of ρ at the body's nearest point on. A body that presses on a face
-// stays in front of its first layer of points, where ρ falls by half within half a spacing.
+// A position is inside a body if ρ there is at least this fraction of ρ at the body's nearest point. A body that
+// presses on a face stays in front of its first layer of points, where ρ falls by half within half a spacing.
 constexpr double as_deep = 0.95;
-// The same with nodes, as a fraction of ρ half a spacing farther in: it is reached 0.7 spacings behind a face of nodes,
-// 0.1 in a sheet of one cell.
+// The same for points at nodes, as a fraction of ρ half a spacing farther inward: ρ reaches it 0.7 spacings behind a
+// face, 0.1 in a sheet of one cell.
 constexpr double as_far_in = 0.9;
 
 // Where points are, now or in the reference state: between periodic sides moved by whole periods to within one from the

@@ -13,7 +13,7 @@ namespace strut::contact {
 
 struct Interpenetration {
   int first = 0, second = 0;  // blocks
-  std::int64_t points = 0;    // of either block: inside the other now, but not in the reference state
+  std::int64_t points = 0;    // of either block: number inside the other now, less that in the reference state
   double part = 0;            // these points, as a fraction of the points of the smaller block
   int point = -1;             // one of them: local index on its owner, −1 on other ranks
 };
@@ -32,10 +32,10 @@ struct Overlap {
 // Collective. All pairs of blocks whose bounding boxes overlap; `points` may be empty.
 std::vector<Overlap> overlapping_blocks(const Domain& domain);
 
-// Collective. Points at surfaces, of all blocks without contact, that have come closer than half a spacing to others at
-// surfaces: of another body, or of the same body if they started more than two horizons apart. Its blocks are those of
-// `point`, known where that is, equal for a block with itself; no `part`. Free if all blocks may touch each other and
-// themselves, or if hardly anything has moved.
+// Collective. Points at surfaces, of blocks without contact, that are closer to another one than half of the shorter
+// edge of both cells, but began farther apart than that edge (in two bodies) or both horizons (in one). The result has
+// the blocks of `point` and its partner (equal within a block), on the owner of `point` only, and no `part`. Costs
+// nothing if all blocks may touch each other and themselves, or if hardly anything has moved.
 std::optional<Interpenetration> find_undeclared(const Domain& domain, const Contact& contact);
 
 }  // namespace strut::contact

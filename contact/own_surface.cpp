@@ -184,7 +184,7 @@ void compare_with_face(const Domain& domain, const BlockPair& blocks, double rea
   const double unit = reach / reach_in_spacings, ahead = before * unit;
   const auto in_front = [ahead](const Piece& piece) { return Vector(piece.at() + ahead * piece.out()); };
   const Images images = images_of(domain, reach);
-  Eigen::AlignedBox3d mine, filled;  // where this rank looks; where points are
+  Eigen::AlignedBox3d mine, filled;  // positions at which this rank needs ρ; all points
   std::vector<Grain> grains;
   for (int i = 0; i < domain.owned; ++i) {
     if (!is_of(domain, blocks, i)) continue;
@@ -215,8 +215,8 @@ void compare_with_face(const Domain& domain, const BlockPair& blocks, double rea
   }
 }
 
-// Scale of a point's volume: the mean of `missing` around it, by inverse powers, which favors the least. Before an edge
-// of the body ρ is lower, but no volume should correct that; pieces at an edge count as 1.
+// Factor on a point's volume: the power mean (−8) of `missing` around it, which favors the least. Before an edge of the
+// body ρ is lower, but volumes must not correct that: pieces at an edge count as 1.
 double scale(const Near<Piece>& pieces, const Vector& X, int body, double within) {
   constexpr double power = -8;
   double weight = 0, sum = 0;

@@ -3,7 +3,7 @@
 //
 // - the depth of a point below the surface, at which it touches another body;
 // - the volume of a point in ρ. Before a curved surface, or a member thinner than the reach of ρ, ρ is smaller than
-//   before a flat face; the volumes of the points there are larger by that factor, so that contact starts at the
+//   before a flat face; the volumes of the points behind it are raised by that ratio, so that contact starts at the
 //   surface.
 #pragma once
 

@@ -9,7 +9,7 @@ namespace strut::contact {
 
 namespace {
 
-// Stiffness of friction springs, relative to that of the surfaces. Below 1 they do not limit the time step.
+// Stiffness of friction springs over that of the surfaces. Below 1 these springs do not limit the time step.
 constexpr double of_friction = 0.5;
 
 // Friction exchange: the friction on a point, as its partners need it.

@@ -127,7 +127,7 @@ void Surfaces::expose_broken(const Domain& domain, const Pairs& pairs) {
   }
 }
 
-// Points whose bonds have broken since the last search see each other from now on: their overlap stays as it was.
+// Points whose bonds have broken since the last search see each other from now on; `excess` keeps their overlap.
 void Surfaces::see_through_breaks(const Domain& domain, const BlockPair& blocks, const BrokenCounts& before,
                                   const BrokenCounts& now, const Pairs& pairs) {
   if (now.empty()) return;
@@ -177,8 +177,8 @@ Surfaces::Facing Surfaces::facing(const SurfaceLaw& law, const SurfacePoint& poi
   return facing;
 }
 
-// Adds to the bound of how far two points of the pairs may have approached since the search: twice the largest
-// displacement of each step relative to the mean.
+// Raises travel_, a bound of the approach of any two points since the search, by twice the largest displacement in this
+// step relative to the mean.
 void Surfaces::advance_travel(const Pairs& pairs) {
   if (seen_.size() != pairs.sites.size()) {
     travel_ = 0;
@@ -202,8 +202,8 @@ void Surfaces::note_touching() {
   }
 }
 
-// Evaluates each point: energy and deepest overlap. A point that does not touch is evaluated again when the motion
-// since then may have closed its gap, and one with an excess in each step.
+// Evaluates the points: energy and deepest overlap. A point that does not touch is skipped until the motion may have
+// closed its gap; one with an excess is evaluated in each step.
 ForceResult Surfaces::feel_all(const SurfaceLaw& law, bool is_trial, const Pairs& pairs) {
   advance_travel(pairs);
   ForceResult result;

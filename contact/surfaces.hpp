@@ -26,7 +26,7 @@ namespace strut::contact {
 struct SurfacePoint {
   double reach = 0;      // largest distance at which it sees another body, m
   double threshold = 0;  // ρ at which it touches
-  double slope = 0;      // of ρ with the distance there, 1/m
+  double slope = 0;      // −dρ/d(distance) at this ρ, 1/m
   double depth = 0;      // below the surface of its body, m
   double area = 0;       // half of its area of the surface, m²: the other body's points have the other half
   double spacing = 0;    // m
@@ -55,8 +55,8 @@ class Surfaces {
   // each other thereby: the overlap is added to the threshold.
   Surfaces(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law);
 
-  // Call it after a search. The numbers of broken bonds of blocks.points that the search before this one and this one
-  // know; empty if no bonds may break, or before the first search.
+  // Call it after a search. `before`, `now`: numbers of broken bonds of blocks.points at the previous search and at
+  // this one; empty if no bonds may break, `before` also at the first search.
   void take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& before, const BrokenCounts& now,
             Pairs& pairs);
 
@@ -69,9 +69,9 @@ class Surfaces {
   // Collective except in a trial. `friction`: on pairs.owned, N, without that of `couples`, which has pairs.owned.
   void add_friction(const Kinematics& kinematics, const Sliding& sliding, const SurfaceLaw& law, double coefficient,
                     Pairs& pairs, Couples& couples, std::vector<Vector>& force_density, std::vector<Vector>& friction);
-  // commit makes the state of the last trial the start of the next ones. friction_work, before it: the work of friction
-  // since the last commit by the mean of the forces at both ends, J; `increments`: of the displacements of owned points
-  // since then, m.
+  // commit makes the state of the last trial the start of the next ones. friction_work, before it: work of friction
+  // since the last commit, by the mean of the forces at both ends, J; `increments`: displacements of owned points since
+  // that commit, m.
   void commit(const std::vector<Vector>& friction);
   std::vector<Vector> committed_friction() const;  // on the owned points of the last search, N
   double friction_work(const Pairs& pairs, const std::vector<Vector>& friction,
@@ -80,10 +80,10 @@ class Surfaces {
   void add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const;
   void add_springs(const Pairs& pairs, std::span<Tensor> springs) const;
 
-  // Columns of blocks.points: stretch of the friction springs at the start of the last step or trial, and the friction
-  // there; with bonds that may break, what broken points feel.
+  // Columns of blocks.points: stretch of the friction springs at the start of the last step or trial, friction at the
+  // last commit; if bonds may break, the data of BrokenPoint.
   void serialize(Archive& archive, bool may_break);
-  // A column of ρ at which points touch: the mesh of a run that starts from this one may have them elsewhere.
+  // A column: the ρ at which points touch. It depends on the initial positions, which another run's mesh may not have.
   void serialize_start(Archive& archive);
 
  private:

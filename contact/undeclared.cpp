@@ -80,7 +80,7 @@ void shift(Seen& point, const Vector& now, const Vector& reference) {
   Eigen::Map<Vector>(point.current) += now, Eigen::Map<Vector>(point.reference) += reference;
 }
 
-// Moves points by whole periods to within one from the origin: bodies may have passed several.
+// Moves points by whole periods into the first period from the origin: bodies may have passed several periods.
 void fold(const Domain& domain, std::vector<Seen>& points) {
   for (const Period& period : domain.periods) {
     const Vector along = period.length * Vector::Unit(period.axis), now = domain.halo.stretch().cwiseProduct(along);
@@ -129,7 +129,7 @@ bool has_passed(const Domain& domain, const Uncovered& uncovered, const Seen& a,
                                                               : first > std::min(a.edge, b.edge);
 }
 
-// True if no two points can have come close that started two horizons (in one body) or an edge (in two) apart.
+// True if points that started two horizons (in one body) or an edge (in two) apart cannot have come close.
 bool hardly_moved(const Domain& domain) {
   Eigen::AlignedBox3d ways;
   double edge = std::numeric_limits<double>::max();

@@ -159,7 +159,7 @@ struct DeshpandeFleck {
     return {0, 0, 1, 1, false};
   }
 
-  // With what a compacted point loses as its moduli grow.
+  // Energy, J/m³, that the step does not store, as by growing moduli.
   double lost(const PointStep& step, const Symmetric& before, const State& old_state, const Symmetric& after,
               const State& state) const {
     return std::max(0.0, materials::lost(*this, step, old_determinant(step), before, old_state, after, state));

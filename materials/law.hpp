@@ -19,8 +19,8 @@
 //   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever
 //                     flowed or softened. The integration points of its cell then get their mean change of volume
 //                     (volumetric locking: src/mechanics/formulation/quadratic.md).
-//   part_left         optional, for laws that soften as they fail: fraction of stress that a point still carries, 1 to
-//                     0, with the state as an argument. It also scales the stabilization.
+//   part_left         optional, for laws that soften as they fail: fraction, 1 to 0, of its stress that a point still
+//                     carries, with the state as an argument. It also scales the stabilization.
 //   set_crack_length  optional: sets the length over which a crack smears its opening, m.
 //   move_stress       optional, for laws of the second form with a history: changes the state so that the stress stays
 //                     where the stretch jumps without motion, for instance because bonds of the point broke; the next
@@ -28,10 +28,10 @@
 //   crack_work        optional, for laws whose dissipation opens cracks: the part of dissipation that counts as energy of
 //                     fracture, J per m³ of reference volume; with set_crack, which sets their strength, Pa, and the
 //                     width over which a crack dissipates its energy, m.
-//   stored_energy     optional, for laws that count it: elastic energy, J per m³ of reference volume.
+//   stored_energy     optional, for laws that count their elastic energy: J per m³ of reference volume.
 //   heat              optional, for laws with a temperature: ρ c_p (T − T₀), J per m³ of reference volume.
 //   set_initial_temperature  optional, with heat: K.
-//   why_no_stress     optional: a message for users, why a step has not converged.
+//   why_no_stress     optional: a message for users with the reason why a step has not converged.
 //   shows             optional: false for the index of a state variable that output does not have.
 //   StateOf<T>        optional, SIMD: a law may process several points at once, one per lane. Its step and StateOf<T>
 //                     are then templates over the scalar, double or RawLanes, State is StateOf<double>. All lanes are

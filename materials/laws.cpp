@@ -1,5 +1,5 @@
 // Checks at compile time that every law of the variant satisfies the interface; selects the law of a metal that may
-// fail; and has the longer functions of hot metals.
+// fail; defines the longer functions of thermal laws.
 #include "materials/laws.hpp"
 
 #include <algorithm>

@@ -22,7 +22,7 @@ struct Points {
   std::array<const double*, 8> places{};
   int count = 0;
 };
-void stand_at(const Points* points);  // the points of this thread's calls; nullptr: none
+void stand_at(const Points* points);  // sets the points of this thread's calls; nullptr: none
 
 // Scope in which this thread runs code of the library; `file` must outlive it.
 class Inside {

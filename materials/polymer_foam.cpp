@@ -21,7 +21,7 @@ PointStress PolymerFoam::step(const PointStep& step, const Symmetric& stress, St
   reached.relative_density = initial_density / step.J;
   if (found.deviatoric < 1) {
     store_flow(step, trial, found, reached);
-    // So that the ledger closes in steps with flow; with the loss of a foam that stores energy at a higher modulus.
+    // Closes the ledger in steps with flow; contains the loss of a foam that stores energy at a higher modulus.
     const double lost = materials::lost(*this, step, determinant(state), stress, state, next, reached);
     if (!std::isfinite(lost)) return {stress, false};
     reached.plastic_work += std::max(0.0, lost);

@@ -76,7 +76,7 @@ class RadialReturn {
 
   // Residual of the return relative to σ_trial: a few thousand times the round-off of the flow stress.
   static constexpr double tolerance = 1e-12;
-  // A Newton step that is shorter than this part of Δε̄ is the last: it leaves an error of its square, 1e-12 again, in a
+  // A Newton step shorter than this fraction of Δε̄ is the last: it leaves an error of its square, 1e-12 again, in a
   // flow stress that is smooth (at a kink, 1e-6 of what the step adds to it), and saves an evaluation.
   static constexpr double last_step = 1e-6;
   // Newton needs 3 on average and 11 at worst; bisection alone reaches round-off in about 50.
@@ -113,8 +113,8 @@ class RadialReturn {
     return result;
   }
 
-  // If the last step flowed, too: the flow stress linearized about it, σ̄(ε̄, ε̇_old) + ∂σ̄/∂ε̄ Δε̄ + ∂σ̄/∂ε̇ (Δε̄/dt −
-  // ε̇_old). This guess follows a change of the rate at once; the last rate would lag behind.
+  // If the last step flowed, too: Δε̄ by the flow stress linearized about it, σ̄(ε̄, ε̇_old) + ∂σ̄/∂ε̄ Δε̄ +
+  // ∂σ̄/∂ε̇ (Δε̄/dt − ε̇_old). It follows a change of the rate at once; a guess by the last rate would lag behind.
   T warm_guess(const T& q, const Rest& at_rest, const PlasticState<T>& state, const T& dt) const {
     const T& rate = state.plastic_strain_rate;
     if (!any(rate > 0)) return T{};

@@ -1,4 +1,4 @@
-// Shared by laws with damage, which reduces the deviator and the tension of the stress and keeps the pressure.
+// Functions of laws with damage: it reduces the deviator and the tension of the stress, and keeps the pressure.
 #pragma once
 
 #include <algorithm>

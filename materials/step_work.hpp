@@ -6,7 +6,7 @@
 
 namespace strut::materials {
 
-// J at the start of the step: with e = d Δt = ΔU U_mid⁻¹ the stretches at its ends are (1 ∓ ½ e) U_mid.
+// J at the start of the step: with e = d Δt = ΔU U_mid⁻¹ the stretches at start and end are (1 ∓ ½ e) U_mid.
 double old_determinant(const PointStep& step);
 
 // Per volume of the reference state, J/m³: ½ (P₀ + P₁) : ΔF, the work of the forces on points that move uniformly

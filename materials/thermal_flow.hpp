@@ -181,7 +181,7 @@ struct MechanicalThreshold {
     const SymmetricOf<T> d = deviator(deformation_rate);
     const T equivalent = sqrt(T(double_dot(d, d) / 1.5));
     const T now = equivalent > slowest_rate ? equivalent : same<T>(slowest_rate), log_rate = log(now);
-    constexpr double least = -40;  // an exponent, of a limit that is none: no 0 / 0
+    constexpr double least = -40;  // of the exponent, so that σ̂_s is not 0: no 0/0
     const T exponent = relative_energy / saturation_energy * (log_rate - std::log(saturation_rate));
     const T limit = saturation * exp(exponent > least ? exponent : same<T>(least));
     const T steepest = slopes[0] + slopes[1] * log_rate + slopes[2] * sqrt(now);

@@ -380,8 +380,8 @@ std::string if_unsymmetric(const TriedStiffness& tried) {
 
 }  // namespace
 
-// Uniaxial strain, as in the fastest waves, has a limit of its own: the usual safety factor, 0.8, leaves 56 %, and
-// leapfrog steps bear half as much by viscosity, whose velocities are older.
+// Uniaxial strain, as in the fastest waves, has a limit of its own: with the usual safety factor, 0.8, the stiffness
+// may be 56 % too large, by viscosity half as much, since leapfrog evaluates it at older velocities.
 std::string stiffer_in(const UserLaw& law, double dt) {
   constexpr double by_viscosity = 1.25;
   const TriedStiffness tried = tried_stiffness(law, dt);

@@ -119,7 +119,7 @@ LibraryTrial tried(const UserLaw& law);
 // Compares the stiffness of a law in steps of dt (s) with its elastic constants; a viscous law is stiffer in shorter
 // steps. Returns "is stiffer, … Pa, than its elastic constants say, … in a step of … s", or "" if it is not stiffer.
 std::string stiffer_in(const UserLaw& law, double dt);
-// The same with what it means for explicit steps, which are as long as the elastic constants allow.
+// The same text, with the consequence for explicit steps, which are as long as the elastic constants allow.
 std::string too_stiff_in(const UserLaw& law, double dt);
 
 }  // namespace strut::materials

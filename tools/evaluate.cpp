@@ -1,5 +1,5 @@
 // strut-evaluate: the languages of decks for tools in Python. A line of standard input is four numbers, x y z t (nan:
-// not known), and an expression; the answer is a line with its value, or with "error" and what is wrong. Files of
+// not known), and an expression; the answer is a line with its value, or with "error" and the reason. Files of
 // tables are found from the working folder. With --xml standard input is a deck in YAML, and the answer is the same
 // deck in XML.
 #include <cmath>

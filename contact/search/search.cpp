@@ -52,8 +52,9 @@ Box box_of(const Kinematics& kinematics, const BlockPair& blocks, int block) {
   return common_box(mine, kinematics.domain.communicator);
 }
 
-// The points, as indices of blocks.points, that may have a partner: those near the box of the other block. A point at
-// the distance D from that box may move by half of D − r_c before it can have a partner; sets its skin distance.
+// The points, as indices of blocks.points, that may have a partner: those near the box of the other block. Sets the
+// skin distance of each other point, at the distance D from that box: half of D − r_c, or D − r_c − skins.largest if
+// less.
 std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& blocks, double radius,
                              SkinDistances& skins) {
   std::vector<int> near(blocks.points.size());

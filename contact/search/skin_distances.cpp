@@ -13,7 +13,7 @@ namespace {
 // usual one: a wider one has more partners, and slow points may become faster.
 constexpr double share_of_fast = 0.005, narrowest = 0.4, widest = 4;
 
-// Searches this many steps apart cost little; no skin distance is made wider than that requires.
+// Searches this many steps apart cost little: no skin distance is larger than this interval requires.
 constexpr double steps_between = 32;
 
 // A frame consists of the points with partners if these are at least this fraction of all, so that it is not a fragment

@@ -1,5 +1,5 @@
-// The content of a checkpoint, by name. The `serialize` functions of the parts both save and restore it, so that
-// neither direction can omit what the other one has.
+// The content of a checkpoint, by name. The `serialize` functions of the parts both save and restore it, so that both
+// directions have the same content.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ class Error : public std::runtime_error {
 // Collective. If `problem` is not empty on any rank, throws Error on all ranks with the distinct texts in rank order.
 void raise_together(const Communicator& communicator, const std::string& problem);
 
-// Collective. Runs `action` on rank `root` only; its exception (Error or any std::exception) is thrown on all ranks.
+// Collective. Runs `action` on rank 0 only; its exception (any std::exception) becomes an Error on all ranks.
 template <class Action>
 void run_on_root(const Communicator& communicator, Action&& action) {
   std::string problem;

@@ -29,8 +29,8 @@ struct FieldPart {
   int width = 0;         // number of components; 0: given by the type
 };
 
-// Number n of a value: of a number, a vector or tensor, or a record that lists its members as `numbers`. Other records
-// have such a function of their own.
+// The n-th number in a value: a number, a vector or tensor, or a record that lists its members as `numbers`. For other
+// records overload this function.
 template <class T>
 requires std::is_arithmetic_v<T> T& number_of(T& value, int) { return value; }
 template <class T>
@@ -145,7 +145,7 @@ class FieldRef {
 template <class T>
 using PointField = FieldRef<std::vector<T>>;
 
-// Index of the values of the k-th of some points: at the q-th of `count` integration points.
+// Where a field has its values: place(k, q) is the index of the k-th point's q-th of `count` integration points.
 struct Places {
   int count = 1;
   std::function<std::size_t(std::size_t k, int q)> place = [](std::size_t k, int) { return k; };

@@ -58,7 +58,7 @@ bool has_title(const std::string& head, const std::string& title) {
   const std::string name_and_type("title\0\0\0\0\0\0\2", 12);
   const std::size_t found = head.find(name_and_type);
   if (!is_classic_netcdf(head)) return false;
-  // A run killed at its start leaves what Exodus writes before the title: nothing is lost with it.
+  // A run killed at its start leaves the attributes that Exodus writes before the title: replacing them loses nothing.
   if (found == std::string::npos) return head.find("api_version") != std::string::npos;
   const std::size_t count_bytes = head[3] == 5 ? 8 : 4, begin = found + name_and_type.size() + count_bytes;
   if (begin > head.size()) return false;

@@ -40,8 +40,7 @@ struct PhaseTime {
 // The time of this rank in phases other than `waiting`, s; in those it waits for other ranks.
 double seconds_outside(std::initializer_list<const char*> waiting);
 
-// Collective. All phases of all ranks in the order of their first use; a rank that never entered a phase counts with 0
-// s.
+// Collective. All phases of all ranks in the order of their first use; a rank that never entered a phase has 0 s in it.
 std::vector<PhaseTime> phase_times(const Communicator& communicator);
 
 }  // namespace strut

@@ -14,8 +14,8 @@ namespace strut {
 
 namespace {
 
-// A run of two solvers writes no checkpoint, but replaces the results to which an earlier one belongs. A file that is
-// none may stay, and so may the one with which this run has begun.
+// A run of two solvers writes no checkpoint, but replaces the results to which an earlier checkpoint belongs. A file of
+// another kind may stay, and so may the checkpoint with which this run has begun.
 bool has_left_over(const deck::Deck& deck, const Communicator& communicator) {
   if (!deck.next_solver || !checkpoint_exists(deck, communicator)) return false;
   bool is_left = false;

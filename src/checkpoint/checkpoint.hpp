@@ -35,8 +35,8 @@ class Checkpoint {
   // Collective. Throws Error on all ranks if the file is damaged, or belongs to another model.
   void load();
   void remove();  // collective: removes the checkpoint of an earlier run; throws Error if the file is none
-  // Collective; at the end of a completed run: removes what it has written on the way, unless the state is to be kept,
-  // as by a run that went on.
+  // Collective; at the end of a completed run: removes its checkpoints, unless the deck keeps the state at the end, or
+  // the run was resumed.
   void close();
 
   bool due(int step, double time) const;  // by the steps or the time of the simulation
@@ -54,7 +54,7 @@ class Checkpoint {
   std::string deck_name_, deck_text_;
   Communicator communicator_;
   Serialize serialize_;
-  bool has_left_over_;  // an earlier run has, which wrote checkpoints as this one does not
+  bool has_left_over_;  // an earlier run has left a checkpoint, and this run writes none
   Schedule schedule_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   int last_step_ = 0;  // last step written or loaded

@@ -6,7 +6,7 @@ namespace strut {
 
 namespace {
 
-// Load at a point, N/m³. A condition that assigns part of a point's inertia to another body takes its part of the load.
+// Load at a point, N/m³, times the fraction of inertia of the point that belongs to its body (non-reflecting ends).
 double load_at(const Function& value, const Body& body, int i, double t) {
   return body.inertia_share(i) * value(body.domain.reference(i), t);
 }

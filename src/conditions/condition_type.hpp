@@ -4,8 +4,8 @@
 // Every condition defines
 //   stage           when it acts in a step, relative to other conditions
 //   ledger_entry    the entry of the energy ledger that gets its work
-//   reaction_place  a member: its index in the deck, which identifies its reaction; static and no_reaction if it
-//                   has none
+//   reaction_place  member: index of the condition in the deck, which identifies its reaction; without a reaction a
+//                   static constant, no_reaction
 //   in_equilibria   how it acts in a load step without inertia
 // and, depending on these, the members in the concepts below. How to add one: CONTRIBUTING.md.
 #pragma once
@@ -93,7 +93,7 @@ concept AddsForces = requires(const T& condition, double t, double impulse_time,
 // If acts_at_start: for the initial velocities, and for the check for undeclared contact (setup), which predicts the
 // motion.
 //   predict_velocities  writes the velocities that it imposes at time t into `velocities`; if it imposes positions,
-//                       their slope at t, from the `moment` (s) after it
+//                       their slope at t, by their values up to t + moment (s)
 template <class T>
 concept PredictsVelocities = requires(const T& condition, double t, double moment, const Body& body,
                                       std::vector<Vector>& velocities) {

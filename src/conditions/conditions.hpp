@@ -1,4 +1,4 @@
-// All conditions on the points of a body, and what they do together in whole steps, substeps and equilibria. This code
+// All conditions on the points of a body, and their common action in whole steps, substeps and equilibria. This code
 // does not distinguish types of conditions; each type defines its own behavior (condition_type.hpp).
 #pragma once
 
@@ -80,8 +80,8 @@ void change_velocities(Conditions& conditions, double t, const PointTimeSteps& s
 // The conditions that act at times between whole steps.
 Conditions in_substeps(const Conditions& conditions, const MovingPoints& moving);
 
-// Velocities of owned points at time t: those that conditions impose, from the `moment` (s) after t, else the initial
-// ones.
+// Velocities of owned points at time t: those that conditions impose (of positions the slope over the `moment`, s,
+// after t), else the initial velocities.
 std::vector<Vector> predicted_velocities(const Conditions& conditions, double t, double moment, const Body& body);
 
 // Throws Error if a condition has no meaning without inertia.

@@ -14,8 +14,8 @@ struct Crossing {
   int point = -1, partner = -1;
 };
 
-// Collective. Finds points of a tool that are bonded, were at most 1.5 edges of a cell apart initially, and now face
-// opposite sides of the tool with some of it between them: a tool stops points only, so a thin one passes between them.
+// Collective. Finds two bonded points, initially at most 1.5 edges of a cell apart, that now face opposite sides of the
+// tool with some of it between them: a tool stops points only, so a thin tool passes between points.
 // `places`: positions of owned points and ghosts at time t (s). Corners of a tool between two points do not count,
 // because the points face sides that are not opposite.
 std::optional<Crossing> find_crossing(const RigidTool& tool, double t, const Domain& domain,

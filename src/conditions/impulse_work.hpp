@@ -7,7 +7,7 @@
 
 namespace strut {
 
-// Velocities of central differences are those at mid-steps; this interpolates them to the time between two steps.
+// Central differences have velocities at mid-steps; this interpolates them to the time between two steps.
 struct MidSteps {
   // Length of the step before the time over the sum of both steps: ½ for equal ones, 0 if there was no step before.
   double before = 0.5;
@@ -43,8 +43,8 @@ struct Work {
 struct ImpulseWork {
   Work before, after;
 
-  // The same between steps of different lengths: the interval of the longer step gets the work of its part of the
-  // impulse, that of the shorter step the rest, because the conserved kinetic energy is that of the longer step
+  // The same between steps of different lengths: the longer step gets the work of its part of the impulse, the shorter
+  // step the rest of the work, because the conserved kinetic energy is that of the longer step
   // (MidSteps::conserved_square). At the start of a run all work belongs to the step after.
   ImpulseWork split(const MidSteps& steps) const {
     const Work all = before + after;

@@ -11,8 +11,8 @@ namespace strut {
 
 namespace {
 
-// The velocity after forces that would change `before` by `change`, with a drag on the mean of both: stable for any
-// rate.
+// The velocity after forces that would change `before` by `change`, and a drag on the mean of `before` and the result:
+// stable for any rate.
 double dragged(double before, double change, double rate, double dt) {
   return (before * (1 - 0.5 * rate * dt) + change) / (1 + 0.5 * rate * dt);
 }

@@ -50,7 +50,7 @@ struct PrescribedTemperature {
   std::vector<HeldDirection> held_directions(const Body&, double, double) const { return {}; }
 };
 
-// Set-up makes a Period of them (topology/mirror.hpp); its images replace the neighbors beyond the sides.
+// Set-up makes a Period of these sides (topology/mirror.hpp); images replace the neighbors beyond them.
 struct PeriodicSides {
   int axis = 0;
   double lower = 0, upper = 0;     // places of the sides along the axis, m

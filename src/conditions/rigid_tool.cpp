@@ -111,8 +111,8 @@ class ToolMotion {
   std::vector<Vector> velocities_;  // by time-step level
 };
 
-// A position on an edge of a box is on several faces, to round-off. The face that it approaches most directly holds it:
-// a punch whose edges coincide with the body's carries them along, whatever the round-off of positions.
+// A position on an edge of a box is on several faces, to round-off. The face that it approaches fastest stops it: a
+// punch whose edges coincide with the body's carries these edges along, whatever the round-off of positions.
 template <class S>
 void choose_face(const S&, const Vector&, const Vector&, Surface&) {}
 void choose_face(const Box& box, const Vector& place, const Vector& velocity, Surface& at) {

@@ -43,9 +43,9 @@ struct FreeMotion {
   // Reacts to the impulse (N s) given to the points of all ranks at `time`. Adds its work and that of the tool's force.
   void push_back(const Vector& impulse, const Body& body, ImpulseWork& work);
 
-  // Removes the directions normal to symmetry planes from those in which forces move the tool, if the tool is its own
-  // mirror image by the plane: the forces on its two halves cancel along the normal. A plane is left out if a velocity
-  // or a force of the deck has a component along its normal.
+  // For each symmetry plane by which the tool is its own mirror image: keeps forces from moving the tool along the
+  // normal, because the forces on its two halves cancel there. Not if a velocity or force of the deck has a component
+  // along it.
   void keep_between(const std::vector<Mirror>& mirrors, const Shape& shape);
 
   double kinetic_energy() const {  // J, at `time`
@@ -90,8 +90,8 @@ struct RigidTool {
     if (reaches) at.gap -= (*reaches)[i];
     return at;
   }
-  // Sets the reaches, from the tool at time t (s) and the body as it was read or as it is: cells that would overlap it
-  // there end at its surface. Nodes have none, because those at a surface lie on it.
+  // Sets the reaches, from the tool at time t (s) and the body as it was read or as it is: cells that would overlap the
+  // tool then end at its surface. Nodes have no reach, because nodes at a surface lie on it.
   void set_reaches(double t, const Body& body, BodyAt at);
   // Save or restore the reaches, and a free motion, too; the archive must be at the group of all owned points.
   void serialize_reaches(Archive& archive, const std::string& name);

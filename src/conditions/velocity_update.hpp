@@ -22,8 +22,8 @@ struct PointTimeSteps {
   int level(int i) const { return !levels || levels->empty() ? 0 : (*levels)[i]; }
   double of(int i) const { return level(i) == 0 ? whole : std::ldexp(whole, -level(i)); }
   double of_impulse(int i) const { return impulse * of(i); }
-  // The value at t + dt (s) of a motion that has `value` at a time. At the final time a motion that ends there, as that
-  // of a table to its last row does, goes on as before: a stop would be part of the velocities that are output.
+  // The value at t + dt (s) of the motion value(t). At the final time a motion that ends then, such as a table at its
+  // last row, goes on at its last velocity: else the output would contain velocities of the stop.
   template <class Motion>
   double after(const Motion& value, double t, double dt) const {
     const double next = value(t + dt);

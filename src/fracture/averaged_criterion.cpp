@@ -73,7 +73,7 @@ void AveragedCriterion::over_family(const Domain& domain, int i, const Visit& vi
   });
 }
 
-// Along one axis, m²; that of a family inside of the block, which is larger than at its surface.
+// The variance along one axis, m², of a family inside the block, which is larger than of one at its surface.
 double AveragedCriterion::largest_variance(const Domain& domain, const MaterialBlock& block) const {
   double most = 0;
   for (const int i : block.points) {

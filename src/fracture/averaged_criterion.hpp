@@ -19,8 +19,8 @@ class AveragedCriterion {
   // Collective. The families must be complete.
   explicit AveragedCriterion(Body& body);
 
-  // Collective. Replaces the growth of the failure indicators since the last average by its average, if one has grown
-  // by a hundredth of the value at which a point fails.
+  // Collective. Replaces the growth of the failure indicators since the last call that averaged by its average, once an
+  // indicator has grown by 0.01 (points fail at 1).
   void average(Body& body);
 
   double bytes() const { return static_cast<double>(has_indicator_.size()); }

@@ -83,8 +83,8 @@ std::vector<char> BondEnergies::take_states(const Body& body, double travel) {
 // When a bond breaks, the body loses the energy 2 w − ½ ω (b_i + b_j) e², because the bond's part of θ vanishes, too.
 // If this is negative, as under pressure, the bond holds. (The change of θ at both ends by the break is neglected.)
 //
-// Ends that have expanded unequally have the extensions e − u and e + u. What u adds is a product of two differences of
-// both ends, so that both get the same bits.
+// Ends that have expanded unequally have the extensions e − u and e + u. The terms in u are products of two differences
+// between the ends, so that both ends get the same bits.
 //
 // With |a| ≤ |a₀| + growth·d and e ≤ max(e₀, 0) + d, the relative displacement d at which w can first reach w_c is the
 // root of a quadratic equation.

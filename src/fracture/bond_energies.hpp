@@ -4,9 +4,9 @@
 // times e. The energy density of a bond, per product of both ends' volumes, is
 //   w = ½ ω [ (a_i + a_j) |ξ| + (b_i + b_j) e ] e,  J/m⁶,
 // and Σ V_i V_j w over all bonds is the energy of all points. Under proportional stretch, w is the work done on the
-// bond. Ends that expand with the temperature, by ε, have extensions e − ε |ξ| of their own in the place of e. A bond
-// of points by correspondence has no such energy: its force is not along the bond, so that its work depends on the
-// rotation of the body.
+// bond. An end that has expanded with the temperature by ε has e − ε |ξ| instead of e. A bond of points by
+// correspondence has no such energy: its force is not along the bond, so that its work depends on the rotation of the
+// body.
 //
 // w is that of the end of the last step, because a_j of a ghost is known only then.
 #pragma once

@@ -66,8 +66,8 @@ bool fails(const MaterialBlock& block) {
 
 }  // namespace
 
-// Calls visit(n, (|η|/((1 + s)|ξ|))²) for each of the n neighbors of a cluster, with the lesser s of the two ends; 0 in
-// lanes that are not bonded to it. Two callers may get different last digits (round_off): only bonds_to_cut decides,
+// Calls visit(n, (|η|/((1 + s)|ξ|))²) for the n-th neighbor of a cluster, for each n, with the lesser s of both ends; 0
+// in lanes that are not bonded to it. Two callers may get different last digits (round_off): only bonds_to_cut decides,
 // identically on all ranks.
 struct Fracture::Stretches {
   const Site* sites;

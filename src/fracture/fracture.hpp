@@ -2,9 +2,9 @@
 //
 // A bond breaks for both of its ends in the same step: the criterion is symmetric to the last bit, so the ranks of both
 // ends decide identically without a message. Each cluster stores the elongation that its bond nearest to the limit
-// still needs, and is checked again only when its points may have moved apart by that much (Travel). While no bond can
-// break, a step does nothing else. Breaks of other bonds also change the energy of bonds: clusters of such points are
-// checked.
+// still needs, and is checked again only when its points may have moved apart by that much (Travel). While no cluster
+// is due, a step does nothing else, unless points may fail or bonds break by energy: breaks of other bonds change this
+// energy, so clusters of such points are checked.
 //
 // The energy dissipated by a break is the residual in the energy balance of the points whose bonds broke. With the work
 // w of a point's force states along the step's motion of its family, before the break, and w' after it,
@@ -50,18 +50,17 @@ class Fracture : public BondBreaking {
   // current, for the others: break_bonds before their stress is updated, count_dissipation after it.
   void break_bonds(Body& body, Part part, double time, double dt) override;
   void count_dissipation(Body& body, Part part) override;
-  // Called when the sum of forces has exchanged its states: the same for springs on both ends' gradients.
+  // Called when the sum of forces has exchanged its states: counts the dissipation of springs on both ends' gradients.
   void count_springs(Body& body) override;
   void finish_step() override { is_looked_at_ = false; }
 
-  // For equilibria. Call it in place of start_step where no point moves, and before a stress update at the same
-  // positions: the bonds that are beyond their limit break in it, and D is the energy that the body then no longer
-  // stores.
+  // For equilibria. Call it instead of start_step before a stress update at the same positions: in this update the
+  // bonds beyond their limit break, and D is the decrease of the body's stored energy.
   void start_rest(const Body& body);
   // Collective. The largest stretch of a bond over the one at which it breaks, at the present positions.
   double largest_stretch(const Body& body) const;
 
-  double bytes(const Body& body) const;  // also of what steps add, in which bonds may break
+  double bytes(const Body& body) const;  // with the memory that steps in which bonds may break add
 
   void serialize(Archive& archive, Body& body);  // collective
 

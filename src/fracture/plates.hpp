@@ -7,8 +7,8 @@
 
 namespace strut {
 
-// For a block of ordinary points with a fracture energy: the part of it that a flat cut across a plate of so many
-// layers dissipates, because its critical value is that of a lattice without faces.
+// For a block of ordinary points with a fracture energy: energy that a flat cut across a plate of so many layers
+// dissipates, over the fracture energy. The critical value of the block is that of a lattice without faces.
 double part_in_plates(const Body& body, std::size_t block, int layers);
 
 }  // namespace strut

@@ -60,13 +60,13 @@ double separation_by_bond_energy(const PulledLattice& lattice);
 struct GradualCrack {
   double strength;  // σ_c, Pa
   double width;     // ℓ, m: 1/(h Σ g²) if the layers beside an opening δ across an axis have the gradients g δ
-  double critical_stretch;  // at which bonds break: root mean square of those across it at the opening 2 G_c/σ_c
+  double critical_stretch;  // root mean square of the stretches of the bonds across the crack at the opening 2 G_c/σ_c
 };
 GradualCrack gradual_crack(const PulledLattice& lattice, double fracture_energy);
 
 // Limit of the steepness of families with broken bonds, relative to that of an interior point; a steeper point carries
-// no stress. It is the ratio 8 of a point at a corner, which has an eighth of the family, plus a tolerance: on a
-// lattice many points have exactly 8, and round-off or a mirror must not decide between them.
+// no stress. A point at a corner, with an eighth of the family, has the ratio 8. The limit has a tolerance: on a
+// lattice many points have exactly 8, and neither round-off nor reflection may decide.
 inline constexpr double steepness_of_corners = 8 * (1 + 1e-9);
 
 // The fraction of a strain jump that the stress follows, for linear elasticity: the λ from 0 to 1 that minimizes the

@@ -39,7 +39,7 @@ class Travel {
   double until_due(std::size_t region, std::span<const double> due) const;
 
   std::vector<Region> regions_;
-  Vector farthest_ = Vector::Zero();  // image behind periodic sides, from its original, m
+  Vector farthest_ = Vector::Zero();  // largest shift of an image behind periodic sides, along x, y, z, m
   double last_ = 0;
 };
 

@@ -42,8 +42,8 @@ struct SpringWorkBalance {
   const std::vector<GradientState>& start;   // at the start of the step
   const std::vector<GradientState>& finish;  // at the end of the step
 
-  // Energy and work along the step (J) of owned point i, whose bonds break in this step, with this family; without the
-  // work −½ t·ΔF_i ξ, which is part of the point's own force state.
+  // Energy and work along the step (J) of the springs of owned point i, whose bonds break in this step, with this
+  // family; without −½ t·ΔF_i ξ, which the work of the point's own force state contains.
   BondWorkBalance of(int i, std::span<const int> family) const;
 };
 

@@ -5,9 +5,9 @@
 
 namespace strut::io {
 
-// Locks a file against other runs until it goes out of scope or the process ends in any way. Throws Error if
-// another run holds it, if it cannot be created, or if it does not exist. File systems without locks lock
-// nothing.
+// Locks a file against other runs until the object goes out of scope or the process ends in any way. Throws Error if
+// another run holds the lock, or if the file cannot be created (`made`) or opened (`there`). On file systems without
+// locks it has no effect.
 class FileLock {
  public:
   enum class File { made, there };  // created if it does not exist
@@ -20,7 +20,7 @@ class FileLock {
   int handle_ = -1;
 };
 
-// Throws Error if another run holds it. Locks and creates nothing.
+// Throws Error if another run holds a lock on the file. Locks and creates nothing.
 void check_not_held(const std::filesystem::path& path);
 
 }  // namespace strut::io

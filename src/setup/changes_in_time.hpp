@@ -24,8 +24,8 @@ struct Steps {
   double start, end, longest;  // s
 };
 
-// The largest change of `of_time` by more than `least` that is done within one step: a steady motion goes on in the
-// steps before and after, which here add less than a third of it. Its length is 0 if there is none.
+// The largest change of `of_time`, more than `least`, within one step, if the steps before and after add less than a
+// third of it (a steady motion goes on in them). Its length is 0 if there is none.
 Jump largest_jump(const OfTime& of_time, const Steps& steps, double least);
 
 // The jumps of `of_time`, which is 0 before the start, by a tenth of its largest value or more, in order.
@@ -47,7 +47,7 @@ void at_corners(const Function& value, const Where& where, const std::function<v
 // which are the places of its tables, and the middles between these.
 std::vector<double> changes_of(const Function& value, const Where& where, double start, double end);
 
-// Every second one and so on, if there are more than `most`.
+// Every n-th of the times, with the least n that leaves `most` at most.
 std::vector<double> thinned(const std::vector<double>& times, int most);
 
 }  // namespace strut

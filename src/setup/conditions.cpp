@@ -238,7 +238,7 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
   check_contradictions(deck, points, scene.body, problems);
   const bool displaces = std::ranges::any_of(deck.conditions, is_initial_displacement);
   if (!deck.start_from && !displaces) scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
-  if (mesh_time == deck.solver.initial_time) {  // else they have been told before the equilibria
+  if (mesh_time == deck.solver.initial_time) {  // else these warnings came before the equilibria
     scene.warnings += sudden_motions(deck, points, scene.body) + sampled_pulses(deck, points, scene.body) +
                       values_between_load_steps(deck, points, scene.body) +
                       temperatures_without_effect(deck, scene.body, points);

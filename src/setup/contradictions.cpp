@@ -86,7 +86,7 @@ SharedPoints shared(const std::vector<Holds>& holds, const PointsOfConditions& p
 
 // Values are compared in the middle of each of these intervals, displacements and sums of velocities at their ends.
 struct Interval {
-  double from, to;  // s; the same for a time that is looked at by itself
+  double from, to;  // s; equal for a single time
   double middle() const { return 0.5 * (from + to); }
 };
 using Times = std::vector<Interval>;
@@ -364,7 +364,7 @@ std::string temperatures_without_effect(const deck::Deck& deck, const Body& body
   }
   const std::vector<FoundPoints> found_left = found_points(body, left), found_kept = found_points(body, kept);
   std::string text;
-  bool changed_before = false;  // else the deck has told it
+  bool changed_before = false;  // else the check of the deck has warned already
   for (std::size_t c = 0; c < points.size(); ++c) {
     if (!heat(c)) continue;
     const std::string path = "WARNING: Boundary Conditions > " + deck.conditions[c].name;

@@ -40,8 +40,8 @@ Vector push_of_plane(const std::vector<Hold>& holds, int condition);
 // along an axis. Removes the points from the others; returns the warning. Collective.
 std::string let_the_last_count(const deck::Deck& deck, const Body& body, PointsOfConditions& points);
 
-// Warns of prescribed temperatures that later ones take all points from, and of constant ones that take none from an
-// earlier one that changes, a line each. Collective.
+// Collective. Warns of prescribed temperatures all of whose points later conditions override, and of constant ones that
+// override no point of an earlier, changing one; a line each.
 std::string temperatures_without_effect(const deck::Deck& deck, const Body& body, const PointsOfConditions& points);
 
 }  // namespace strut

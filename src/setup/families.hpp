@@ -19,11 +19,11 @@ Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud
 // Collective. The initial cracks of the deck (Bond Filters), last the surfaces that it names by their files.
 std::vector<Crack> cracks_of(const deck::Deck& deck, const Communicator& communicator);
 
-// The points among `points` (owned) that lie on the crack, to round-off: it cuts their bonds to both sides.
+// The points among `points` (owned) that lie on the crack, to round-off: the crack cuts their bonds to both sides.
 std::vector<int> points_on(const Crack& crack, const std::vector<int>& points, const Domain& domain);
 
-// Collective. Reads the surfaces of Bond Filters into the deck's cracks, for all partitions of a run: their files may
-// be gone by the next.
+// Collective. Reads the surfaces of Bond Filters into the deck's cracks once, for all partitions of a run: the files
+// may be gone at a later one.
 void read_cracks(deck::Deck& deck, const Communicator& communicator);
 
 }  // namespace strut

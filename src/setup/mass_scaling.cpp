@@ -24,7 +24,7 @@ void scale(const std::vector<double>& densities, const std::vector<double>& boun
   }
 }
 
-// The highest frequency bound (1/s) for a critical time step of `wanted` (s); 0 if it is as long without scaling.
+// The highest frequency bound (1/s) for a critical time step of `wanted` (s); 0 if the step is as long without scaling.
 double highest_for(double wanted, Body& body) {
   constexpr int most_trials = 20;
   constexpr double lower = 0.99;  // factor by which each trial undershoots the estimate

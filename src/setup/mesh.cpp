@@ -23,7 +23,7 @@ namespace strut {
 
 namespace {
 
-const std::string mesh_key = "Discretization > Input Mesh File";  // or, of a mesh in memory, what stands for it
+const std::string mesh_key = "Discretization > Input Mesh File";  // in messages, also for a mesh in memory
 
 // True if surface contact or layers of a profile need the faces of cells; points at nodes lie on them.
 bool meets_faces(const deck::Deck& deck) {
@@ -66,7 +66,7 @@ std::int64_t mark_numbers(const std::vector<std::int64_t>& numbers, std::uint64_
   return std::count(found.begin(), found.end(), 1.0);
 }
 
-// Collective. Marks the point whose position(i) is nearest to a place; of several the one that the mesh has first.
+// Collective. Marks the point whose position(i) is nearest to `place`; if several are, the first of the mesh.
 template <class Position>
 void mark_nearest(const Vector& place, std::uint64_t bit, const Position& position, PointCloud& cloud,
                   const Communicator& communicator) {

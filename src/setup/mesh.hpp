@@ -10,7 +10,7 @@
 namespace strut {
 
 // Collective. The points of the mesh, in a file or in memory (on rank 0), or of the built-in grid. Faces on planes of
-// the deck go to `apart`: they count when it is known where bodies go on (setup/mirrors.hpp).
+// the deck go to `apart`, until it is known behind which of them bodies continue (setup/mirrors.hpp).
 PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, const io::Mesh* in_memory,
                      FacesOnPlanes& apart);
 
@@ -25,10 +25,10 @@ void check_places(const deck::Deck& deck, const PointCloud& cloud, const Communi
 void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, const Communicator& communicator,
                    deck::Problems& problems);
 
-// Collective. Probes whose points have been dropped become the nearest points that are left.
+// Collective. Gives probes whose points have been dropped the nearest remaining points.
 void find_probes_again(const std::vector<deck::NodeSet>& sets, Domain& domain);
 
-// Collective. The points that the probes of the history have become, a line each; a warning if one is far away.
+// Collective. The point of each probe of the history, a line each; a warning if a point is far from its probe.
 std::string places_of_probes(const deck::Deck& deck, const Domain& domain);
 
 }  // namespace strut

@@ -24,7 +24,7 @@ struct Mirrors {
 // Throws Error on all ranks if planes of one body meet at an angle that is not 180°/n.
 Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator);
 
-// Collective. Adds to the surface those of the faces behind which their body does not go on.
+// Collective. Adds to the surface of the cells those faces behind which the body does not continue.
 void add_faces_without_images(const deck::Deck& deck, const FacesOnPlanes& faces, const Communicator& communicator,
                               PointCloud& cloud);
 

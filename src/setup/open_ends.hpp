@@ -1,5 +1,5 @@
-// Non-reflecting ends of a scene: checks that each is one layer of points, and reduces the inertia of their points by
-// the part beyond the ends.
+// Non-reflecting ends of a scene: checks that each end is one layer of points, and reduces the inertia of these points
+// by the part beyond the ends.
 #pragma once
 
 #include "conditions/conditions.hpp"

@@ -19,7 +19,7 @@ std::vector<Mirror> sides_of_periods(const deck::Deck& deck);
 std::vector<Period> periods(const deck::Deck& deck, const PointCloud& cloud, const std::vector<Mirror>& mirrors,
                             const Communicator& communicator);
 
-// Removes the ends of a box that is as long as a period, along its axis: the box touches its own images there.
+// Removes the ends of a box along the axis of a period as long as the box: the box touches its own images there.
 void join_images(const std::vector<Period>& periods, Shape& shape);
 
 // Collective. A warning for each period whose upper side has elements that meet none of those at the lower side.

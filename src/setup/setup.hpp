@@ -22,7 +22,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
 // Reads and builds; throws one Error for all problems.
 Scene set_up(const deck::Deck& deck, const Communicator& communicator);
 
-// Migration state: the part of a scene from which it is rebuilt on another partition, once the scene is deleted.
+// Migration state: the part of a scene that survives it, to rebuild the scene on another partition.
 struct MigrationState {
   PointCloud cloud;  // of this rank in the new partition
   PartitionWeights weights;

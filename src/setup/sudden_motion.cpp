@@ -164,7 +164,7 @@ std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& poi
     const Steps steps{deck.solver.initial_time, deck.solver.final_time, step};
     const auto* sides = std::get_if<PeriodicSides>(&condition.kind);
     const bool heats = std::holds_alternative<PrescribedTemperature>(condition.kind);
-    // Metres, or the strain of a temperature, by a unit of the value; and how much of it is told.
+    // Meters, or strain by a temperature, per unit of the value; and the least jump that gives a warning.
     const double size = sides ? sides->upper - sides->lower : heats ? expansion_of(points[c], body) : 1;
     const double least = heats ? sudden_strain : sudden * there.spacing;
     for (const Function& value : values) {

@@ -9,7 +9,7 @@
 
 namespace strut {
 
-// Beside an initial displacement of a body, the points that are held may stay where the mesh has them.
+// Whether held points may stay at their positions in the mesh although an Initial Displacement moves the body.
 enum class MayRest { no, yes };
 
 // Collective. Finds points whose displacement at the initial time is not the one that a condition prescribes for this

@@ -16,7 +16,7 @@ bool has_known_edges(const Domain& domain, int i) {
   const PointCloud& cloud = domain.cloud;
   if (cloud.shapes.empty()) return false;
   const double whole = std::pow(cloud.spacings[i], 3);
-  // A node has an eighth of each hexahedron around it, and of a tetrahedron a quarter, of which six make a cube.
+  // A node has an eighth of each hexahedron around it, but a quarter of each tetrahedron, six of which make a cube.
   if (cloud.at == PointsAt::nodes)
     return domain.volume(i) > static_cast<double>(cloud.shared_nodes[i].size()) * whole / 16;
   return cloud.shared_nodes[i].size() > corners_of_tetrahedron && has_whole_cell(domain, i);
@@ -30,8 +30,8 @@ double edge_of_cell(const Domain& domain, int i, const Vector& direction) {
 
 CellEdges edges_of_cell(const Domain& domain, int i) {
   if (!has_known_edges(domain, i)) return {domain.cloud.spacings[i], domain.cloud.spacings[i]};
-  // A node at a face may have a cube of a cell that is none: its offset then tells the axis across the face. The
-  // moments of parts of cells are not in the order of their edges.
+  // A node at a face may have a cube, half of a longer cell: its moments have no axes, and the offset of its centroid
+  // adds the axis across the face. Moments of parts of cells do not rank like the edges of the cells.
   const CellShape& shape = domain.cloud.shapes[i];
   const Tensor moments = to_tensor(shape.moments) + 1e-6 * shape.offset * shape.offset.transpose();
   const Tensor axes = Eigen::SelfAdjointEigenSolver<Tensor>(moments).eigenvectors();

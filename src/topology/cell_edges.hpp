@@ -9,11 +9,11 @@ namespace strut {
 // hexahedra. The moments of tetrahedra and their nodes do not tell how far apart points are.
 bool has_known_edges(const Domain& domain, int i);
 
-// True if the point has all of a cell, as nodes at a surface have not: only such cells tell their axes for certain.
+// True if the volume of a point is that of a whole cell (not of nodes at a surface): only then its axes are certain.
 bool has_whole_cell(const Domain& domain, int i);
 
-// The edge of the cell of an owned point along a direction of unit length, m: of a box along its axes exact. A node at
-// a surface has the edge of a whole cell, as it were inside. The spacing where edges are not known.
+// The edge of the cell of an owned point along a direction of unit length, m; exact for a box along its axes. A node at
+// a surface has the edge of a node inside. The spacing if edges are not known.
 double edge_of_cell(const Domain& domain, int i, const Vector& direction);
 
 struct CellEdges {

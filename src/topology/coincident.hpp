@@ -15,9 +15,9 @@ namespace strut {
 // times as wide as thick.
 constexpr double at_one_place = 0.1;
 
-// Collective, for a cloud that is spread over the ranks in any way. `allowed`: whether points of these two blocks may
-// coincide. Returns "" if no others do; else a sentence, the same on all ranks, with the first two in the order of the
-// file and their number.
+// Collective, for a cloud in any distribution over the ranks. `allowed`: whether points of these two blocks may
+// coincide. Returns "" if no other points coincide; else a sentence, the same on all ranks, with the first two of them
+// in the order of the file and the number of points.
 std::string coincident_points(const PointCloud& cloud, const Communicator& communicator,
                               const std::function<bool(int, int)>& allowed);
 

@@ -25,7 +25,7 @@ struct BlockHorizons {
 };
 
 // Local indices: [0, interior) owned, all neighbors owned; [interior, owned) owned, with ghosts in the family;
-// [owned, owned + ghosts) owned by other ranks, or images of points by symmetry planes.
+// [owned, owned + ghosts) owned by other ranks, or images of points behind symmetry planes or periodic sides.
 struct Domain {
   Communicator communicator;
   PointCloud cloud;  // owned points; their positions and volumes have gone to sites

@@ -34,7 +34,7 @@ class Halo {
   // original.
   Halo(const Communicator& communicator, std::span<const std::int64_t> owned, std::span<const std::int64_t> ghosts,
        std::span<const int> owners, const Images& images = {});
-  // Collective. The exchange for some of the points: `wanted` of owned points and ghosts, equal on their owners.
+  // Collective. The exchange for the points marked in `wanted` (owned points and ghosts, marked as on their owners).
   Halo restricted_to(const Communicator& communicator, const std::vector<std::uint8_t>& wanted) const;
   ~Halo();
   Halo(Halo&&) noexcept;

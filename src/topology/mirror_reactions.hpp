@@ -1,6 +1,6 @@
-// The forces of symmetry planes on the bodies that they cut: what the images behind a plane exert on the points before
-// it. Forces within a body and its images cancel. Through periodic sides a force counts for each period between its
-// ends.
+// The forces of symmetry planes on the bodies that they cut: the sum of the forces of images behind a plane on points
+// before it. Forces within a body and its images cancel. A force through periodic sides counts once for each period
+// between its ends.
 #pragma once
 
 #include <cmath>

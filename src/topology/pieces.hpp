@@ -11,7 +11,7 @@ namespace strut {
 
 // Collective. For each owned point, the least id of the points of its piece.
 std::vector<std::int64_t> piece_ids(const Domain& domain);
-// The same by those bonds alone for which joins(owned point, point) is true; joins(i, j) = joins(j, i).
+// The same with only the bonds for which joins(owned point, point) is true; joins must be symmetric.
 std::vector<std::int64_t> piece_ids(const Domain& domain, const std::function<bool(int, int)>& joins);
 
 // Collective. The number of pieces.

@@ -15,8 +15,8 @@ PLATEAUS = {"": (0.2, 0.3), "_20_40": (0.2, 0.4)}
 END_OF_PLATEAU = 1.3  # times the plateau stress (ISO)
 ENERGY_TO = 0.5       # strain up to which energy is given if the plateau does not end before (ISO)
 GRADIENT = (0.2, 0.7)  # fractions of the plateau stress between which gradients are taken (ISO: of the loop)
-MOST_UNLOADED = 0.5   # least fraction of the stress by which a loop unloads
-MOST_APART = 0.05     # relative difference of the stresses at both ends without equilibrium (Ravichandran & Subhash)
+MOST_UNLOADED = 0.5   # largest fraction of its first stress that an unloading may leave
+MOST_APART = 0.05     # largest relative difference of both ends' stresses in equilibrium (Ravichandran & Subhash)
 OFFSETS = {"": 0.002, "_1": 0.01}  # plastic strains of offset stress and proof strength
 
 

@@ -17,7 +17,7 @@ LEAST_JUMP = 0.5      # of the usual velocity of the hit end
 MEASURES = ("front_speed", "front_scatter", "velocity_jump", "strain_behind", "strain_by_speed", "shock_stress", "stress_jump")
 MIDDLE = (0.15, 0.85)  # of the height: where speed, strain and jump are taken, away from both ends
 LAST = 0.15           # of the height: as far as the front may reach behind its place
-AHEAD = 0.25          # of the velocity of the hit end: half of what an arrival needs
+AHEAD = 0.25          # of the velocity of the hit end: half of an arrival's velocity
 
 
 @dataclass
@@ -66,8 +66,8 @@ def arrivals(times, gained):
 
 
 def alone_until(times, gained, when):
-    """The time from which the layers ahead of the front move, too, since the far end is crushed as well: arrivals no longer
-    tell of the front. Infinite: never."""
+    """The time from which the layers ahead of the front move, too, because the far end is crushed: later arrivals are no
+    front's. Infinite: never."""
     for before, row in zip(times[:-1], gained[1:]):
         ahead = row[~(when <= before)]  # all of them may be set in motion in one row
         if 0 < ahead.size < row.size and np.median(ahead) > AHEAD * row[0]:

@@ -151,8 +151,8 @@ def motion_of(deck, axis, times):
 
 
 def taken_off(deck, value):
-    """What decks of Peridigm, and explicit steps, take off a prescribed displacement that depends on time: its value at the
-    initial time, unless a checkpoint or an initial displacement has moved the points so far already."""
+    """The value at the initial time that decks of Peridigm, and explicit steps, subtract from a prescribed displacement
+    that depends on time; 0 if a checkpoint or an initial displacement has moved the points so far already."""
     others = [value_in(keys, "Type") for keys in deck.sections("Boundary Conditions").values()]
     whole = deck.root.get("name") != "Peridigm" and deck.section("Solver", "Verlet") is None
     if whole or "Initial Displacement" in others or deck.section("Start From") is not None:
@@ -163,7 +163,7 @@ def taken_off(deck, value):
 
 
 def from_the_touch(way, apart):
-    """The way of a tool after it has come so far to the body (m, along the axis; None if that is not known), and words on it."""
+    """Displacement of a tool after it has moved by `apart` (m; None: unknown) to the body, and words on it."""
     way = way - way[0]  # where it stands at the start, bodies are taken as cut off
     if apart is None:
         return way, " from where it stands at the start (a gap there counts as strain)"

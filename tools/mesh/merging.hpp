@@ -10,8 +10,8 @@
 
 namespace strut::mesh {
 
-// Nodes can join only cells at touching positions. So a merge that would separate material, because the merged cell has
-// a contact farther away, is not made.
+// Nodes can join only cells at touching positions. So a merge is not made if the merged cell would have a contact
+// farther away, which would separate material.
 class Merging {
  public:
   // `links`: for each piece, those that it can be merged into.

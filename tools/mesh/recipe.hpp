@@ -26,16 +26,16 @@ struct Body {
   double spacing = 0;                 // m, requested
   int cells = 0;                      // voxels along an edge of a gathered cell; 0: a cell is a voxel
   double smallest_cell = 0.3;         // of a whole cell: smaller ones are merged into a neighbor
-  double grading = 1;                 // largest ratio of the thicknesses of adjacent layers; 1: equal layers
+  double grading = 1;                 // thickness of a layer over that of the one below, above `uniform`; 1: equal
   double uniform = 0;                 // m, length of equal layers at zmin
   double coarsest = 0;                // m, largest thickness of a layer; 0: no limit
   double length = 0;                  // m, of a cylinder or cone, along z
   double radius = 0;                  // m
   double top_radius = 0;              // m, of a cone, at zmax
-  Vector size = Vector::Zero();       // m, of a box
+  Vector size = Vector::Zero();       // m, of a box, a foam or a lattice
   Vector origin = Vector::Zero();     // m, center of a round body's lower face, lower corner of a box, shift of a file
   double cell = 0;                    // m, mean diameter of a foam's cells; edge of a lattice's cell
-  double relative_density = 0;        // volume of a foam's struts over that of its box; 0: by the thickness
+  double relative_density = 0;        // volume of a foam's or lattice's material over its box; 0: by the thickness
   std::string lattice;                // its name
   double thickness = 0;               // m, of a lattice's struts or sheets; 0: by the density
   std::array<bool, 3> periodic = {};  // axes along which a foam or lattice repeats

@@ -10,12 +10,12 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyDat
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkWindowedSincPolyDataFilter
 
 TORN = 1.5        # spacings: points that have moved apart by more are not joined
-NEAR = 4          # points that a corner moves with
+NEAR = 4          # number of points that a corner of the surface moves with
 BUMP = 0.7        # spacings: a bump falls as exp(-(distance/BUMP)^2)
 MANY, MOST = 2.4e7, 1e8  # places at which the sum is taken: usually, and at the most
-LEVELS = 0.8, 1.25  # within which the level is; the surface of a row of points that touch has 1
-INSIDE = 1.7      # at more than that in the sum bumps are lower: those of a row have no more, inside of a body they have 2.7
-EVEN = 1.7        # spacings to the nearest point from which on bumps do not join
+LEVELS = 0.8, 1.25  # limits of the level; the surface of a row of points that touch has the level 1
+INSIDE = 1.7      # value of the sum above which bumps are lowered; in a row it is at most this, inside a body 2.7
+EVEN = 1.7        # distance to the nearest point, in spacings, above which bumps do not join
 LONG = 1.5        # spacings over the usual distance to the nearest point: of cells that are longer elsewhere, whose bumps do not join
 
 

@@ -175,7 +175,7 @@ class Scene:
             yield surface
 
     def _frame(self):
-        """The picture has the bodies in all frames, and of the tools what is within a margin around them."""
+        """Frames the bodies at all times, and the parts of tools within a margin around them."""
         low, high, columns = np.full(6, np.inf), np.full(6, -np.inf), range(len(self.frames))
         for column in columns:
             corners = np.concatenate([corners for corners, *_ in filter(None, self.moved(column))])

@@ -121,8 +121,8 @@ class Signals {
   std::array<struct sigaction, caught.size()> before_ = {};
 };
 
-// Runs share MPI, the output and the handlers of signals of this process: one works at a time, and none is looked at
-// meanwhile.
+// Runs share MPI, the output and the handlers of signals of this process: only one works at a time, and meanwhile no
+// call may read another one.
 class Working {
  public:
   Working() { check(), at_work_ = true; }

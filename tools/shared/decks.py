@@ -194,7 +194,7 @@ def box_of(body):
 
 
 class NoExpression(Exception):
-    """Where and what is wrong, for a user."""
+    """Its text says where and why an expression is wrong."""
 
 
 @functools.cache

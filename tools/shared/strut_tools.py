@@ -256,8 +256,8 @@ def captured():
 
 @functools.cache
 def program(name):
-    """The path of strut, strut-mesh, …: what STRUT, STRUT_MESH, … names, or that of this source tree, built if it is stale, or of
-    an installed tree."""
+    """The path of strut, strut-mesh, …: from the variable STRUT, STRUT_MESH, …, else in this source tree (built if
+    stale), else in an installed tree."""
     if path := os.environ.get(name.upper().replace("-", "_")):
         return path
     prepare = os.path.join(ROOT, "tools", "prepare")

@@ -94,7 +94,7 @@ def box_set(face):
 
 
 def is_of_edges(warning):
-    """True for the word of strut that points are of two faces: both move them alike."""
+    """True for strut's warning that points belong to two faces, whose motions there are equal."""
     return warning.endswith("which stands later and alone counts there, as in Peridigm")
 
 

@@ -22,7 +22,7 @@ def facts_of(case):
     and went on. One part tells the seconds of both of its solvers, and the steps of each: those of the last one count."""
     text = logs.text_of(case.log)
     parts = re.split(r"^(?=[\d,]+ points, [\d,]+ bonds)", text, flags=re.M)
-    parts = parts[1:] or parts  # before the first one stands what strut-mesh says
+    parts = parts[1:] or parts  # the text before the first run is the output of strut-mesh
     found = {name: last_of(name, text) for name in ("points", "balance_error")}
     found["seconds"] = total([last_of("seconds", part) for part in parts])
     steps = [{kind: float(n) for n, kind in re.findall(FACTS["steps"], part, re.M)} for part in parts]

@@ -27,7 +27,7 @@ class Study:
     curve: str | None = None                  # options of tools/curve; None: there is no curve
     collect: list = field(default_factory=list)
     plots: list = field(default_factory=list)
-    band: str | None = None                   # what varies and has a mean curve and a band for each of its values
+    band: str | None = None                   # varied name with a mean curve and a band for each of its values
 
     def cases(self):
         """A {name: value} for each case: all combinations of the lines `vary`."""

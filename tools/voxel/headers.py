@@ -52,7 +52,7 @@ def roughness(values):
 
 
 def sounds_swapped(values):
-    """True if much rougher than in the other order; or for one-byte integers that are all in the upper byte."""
+    """True if much rougher than in the other byte order, or if all are integers below 256 in that order."""
     if values.dtype.itemsize == 1 or values.dtype == bool or values.size < 2:
         return False
     flat = values.reshape(-1)

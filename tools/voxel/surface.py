@@ -12,7 +12,7 @@ from strut_tools import captured, check_input, fail
 BAND = 3  # voxels from the surface within which the distance is that of the triangles
 TIE = 1e-6  # voxels from a triangle within which a middle is on it
 ASIDE = 1e-3  # voxels from a middle to the places that tell whether there is solid on all sides
-MOSTLY_OUT = 0.1  # share of a piece in bodies up to which it is outside them
+MOSTLY_OUT = 0.1  # largest volume fraction in bodies of a piece that counts as outside them
 
 
 def read(path, edge, factor=1.0, in_part=False):
@@ -106,9 +106,9 @@ def pieces_of(surface):
 
 
 def signs_of(path, pieces, low, edge, shape):
-    """+1 for each piece that bounds a body, -1 for a cavity; how many were turned; and in how many bodies
-    the middle of each voxel (z, y, x) is. A piece that is wound the other way is a cavity in a body, but outside all of them a body,
-    together with what is within it."""
+    """+1 for each piece that bounds a body, -1 for a cavity; the number of turned pieces; and the number of bodies that
+    contain the middle of each voxel (z, y, x). A piece wound the other way is a cavity if it is in a body, else a body,
+    which turns the pieces within it, too."""
     count, turn, signs, turned = np.zeros(shape[::-1], np.int32), np.ones(shape[::-1], np.int8), [], 0
     for piece in pieces:
         part, inside = part_inside(piece, low, edge, shape)
@@ -187,8 +187,8 @@ def distances(surface, inside, low, edge):
 
 
 def moved_to(values, edge, share, in_part):
-    """The distances from a surface moved outward or inward, so that this share of the box is solid, by whole voxels or in part;
-    and how far."""
+    """The distances from a surface moved outward or inward until this fraction of the box is solid (by whole voxels or
+    in part), and the displacement."""
     if not in_part:
         level = np.quantile(values, 1 - share, method="higher")
         return values - np.float32(level), -float(level)

@@ -31,7 +31,7 @@ class Function {
   // Its path in the deck, for errors: "Boundary Conditions > pull > Value".
   void set_path(std::string path) { path_ = std::move(path); }
   const std::string& path() const { return path_; }
-  // The error message for such a value, with its path; for the stored one, "" if there was none.
+  // The error message, with the path, for a value that is not finite; for the stored value, "" if there is none.
   std::string describe(double x, double y, double z, double t, double value) const;
   std::string first_not_finite() const;
 

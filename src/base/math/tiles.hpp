@@ -1,5 +1,5 @@
 // Records of numbers in tiles: a tile stores as many records as a register has lanes, number by number, so that a
-// kernel processes the records of a tile side by side and loads each of their numbers at once.
+// kernel processes its records side by side and loads the n-th number of all of them at once.
 #pragma once
 
 #include <algorithm>

@@ -12,8 +12,8 @@ namespace strut {
 // or jump.
 std::vector<double> numbers_in(const std::string& text);
 
-// From one time to another, by a rule of Gauss in each of some equal parts, which end also at these times: exact for
-// tables and steps in t. Stores values that are not finite.
+// The integral from one time to another, by Gauss's rule in equal parts, divided further at `turns`: exact for tables
+// and steps in t. `value` stores a result that is not finite.
 double time_integral(const Function& value, const Vector& X, double from, double to, const std::vector<double>& turns);
 
 }  // namespace strut

@@ -1,5 +1,5 @@
 // The ranks of a run: a thin, copyable handle of a Teuchos communicator that keeps Trilinos' headers out of ours. All
-// members except rank(), size() and abort() are collective.
+// members except rank(), size(), abort() and teuchos() are collective.
 #pragma once
 
 #include <cstdint>

@@ -11,8 +11,8 @@ namespace strut {
 
 constexpr int most_threads = 1024;
 
-// Sets the threads of each rank, 1 … most_threads, once MPI has started. Returns the reason if there cannot be so many,
-// else nothing.
+// Sets the number of threads of each rank, 1 … most_threads; call it after MPI has started. Returns the reason if that
+// number is impossible, else "".
 std::string set_threads(int count);
 int threads();
 

@@ -35,9 +35,9 @@ class EnergyAccount {
   Ledger ledger(const Body& body, const Conditions& conditions, const contact::Contact& contact, const MidSteps& steps,
                 double time, double dt);
   bool has_begun() const { return has_begun_; }  // true after begin_with()
-  // Work counts from here, without the part of this impulse that belongs to the step before.
+  // Starts to count work at this impulse, without the part of it that belongs to the step before.
   void begin_at_this_impulse() { done_ = done_ + impulse_.before * -1; }
-  // Counts the energy of the body at the first ledger as put in before. `half_step`: J, counted as put in from the
+  // Counts the energy of the body at the first ledger as supplied before. `half_step`: J, counted as supplied from the
   // second ledger on, because a body that is strained at the start begins with half a step.
   void begin_with(const Ledger& ledger, double half_step) {
     initial_ += ledger.gained, half_step_ = half_step, has_begun_ = true;

@@ -220,8 +220,8 @@ void CentralDifference::count_work(double impulse_time) {
   energies_.end_impulse(mid_steps_);
 }
 
-// Output takes the mean of both velocities for the velocity at the time of the forces. If the two steps differ, the
-// velocity before is replaced by that for a step as long as the one after.
+// Output takes the mean of both velocities for the velocity at the time of the forces. If the two steps differ,
+// replaces the velocity before by the one that a step before, as long as the step after, would have.
 void CentralDifference::even_out() {
   for_each_point(0, body_.owned(), [&](int i) {
     Vector& before = body_.previous_velocity[i];

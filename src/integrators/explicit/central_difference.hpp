@@ -24,8 +24,7 @@ class CentralDifference {
 
   double time() const { return time_; }
   int steps() const { return length_.steps(); }
-  // Numbers of stress updates: per point, averaged over all points; the largest number of any point in one
-  // step.
+  // Numbers of stress updates: so far, as the mean over all points; in one step, the largest of any point.
   double updates() const { return updates_; }
   int most_substeps() const { return most_substeps_; }
   double dt() const { return length_.dt(); }
@@ -44,7 +43,7 @@ class CentralDifference {
   void advance_position(bool with_diagnostics);
 
   Ledger ledger();  // collective; after advance_velocity()
-  // Before the first step: the work so far is that of a solver before this one.
+  // Call it before the first step: continues the ledger of the solver before this one.
   void go_on_from(const Ledger& before);
 
   // Starts to add up the impulses of this number of conditions of the deck.

@@ -13,7 +13,7 @@ namespace {
 using Field = std::vector<Vector>;
 using StoredField = std::vector<Eigen::Vector3f>;  // single precision is far finer than an estimate's accuracy
 
-// Length of an image vector, relative, after its components in the basis are removed; less than this is round-off.
+// Least length, relative, of an image vector after its components in the basis are removed; less is round-off.
 constexpr double smallest_rest = 1e-5;
 
 // Σ m a·b over all ranks; M⁻¹K is symmetric in this product. It is the same on any number of ranks to the last bit;

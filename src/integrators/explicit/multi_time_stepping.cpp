@@ -26,8 +26,8 @@ double part_after(const PresentStep& present, double bound, bool anew) {
 }
 
 // At a change of levels, the impulse of a point's force lasts for half of the point's own step before the change and
-// half of its own step after it. Scales the forces of points whose own step changes accordingly. `after`: length of the
-// whole step after the change over the sum of both whole steps.
+// half of its own step after it. Scales the forces of points whose own step changes by this duration. `after`: length
+// of the whole step after the change over the sum of both whole steps.
 void spread_impulses(Body& body, const std::vector<std::uint8_t>& before, double after) {
   for_each_point(0, body.owned(), [&](int i) {
     const double old_share = before.empty() ? 1 : power_of_two(-before[i]), share = body.share(i);

@@ -18,12 +18,12 @@ namespace strut {
 class MultiTimeStepping {
  public:
   // Collective. Chooses the time-step level of each point (body.time_levels) from its frequency bound, for the least
-  // cost; none if that saves little. Rescales the forces of points whose level changes, so that their impulse ends the
-  // last interval and begins the next: call it between advance_stress and sum_forces. Returns the largest product of
-  // frequency bound and fraction of the step of any point on this rank, 1/s. `safety_factor`: step over stable step.
-  // The present step stays, unless another is much better.
+  // cost; none if that saves little. Rescales the forces of points whose level changes: their impulse now lasts for
+  // half of the old and half of the new own step. Call it between advance_stress and sum_forces. Returns the largest
+  // product of frequency bound and fraction of the step of any point on this rank, 1/s. `safety_factor`: step over
+  // stable step. The present step stays, unless another is much better.
   double choose(Body& body, double safety_factor, const PresentStep& present, const ActedOn& acted_on);
-  // Collective. The same for no substeps at all, from now on.
+  // Collective. The same, but ends all substeps: level 0 for all points.
   double drop(Body& body, const PresentStep& present);
 
   // Marks of owned points that contact must not push, because points with several substeps are too close. Empty: there

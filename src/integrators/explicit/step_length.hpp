@@ -32,8 +32,7 @@ class StepLength {
   double next_time() const { return next_time_; }      // s, at the end of that step
   bool none_follows() const { return none_follows_; }  // true at the final time
 
-  // 2/ω_max now, s: the last estimate, reduced by the deformation since then and by contact of this stiffness
-  // (1/s²).
+  // 2/ω_max now, s: the last estimate, reduced by the deformation since, contact of this stiffness (1/s²) and damping.
   double critical(double contact_stiffness) const;
   // The length of step that the control asks for, s.
   double wanted(double contact_stiffness) const;

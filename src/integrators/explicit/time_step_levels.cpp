@@ -205,7 +205,7 @@ double work_of_step(const Body& body, const std::vector<std::uint8_t>& levels) {
   return body.domain.communicator.sum(work);
 }
 
-// `before`: the present levels, if any, which points keep unless something pushes them.
+// `before`: the present levels, if any; a level falls only if the bound allows `slack`, or where something pushes.
 TimeStepLevels levels_for(Body& body, const FrequencyBounds& bounds, double bound, double margin,
                           const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& pushed) {
   std::vector<std::uint8_t> levels(body.owned(), 0);

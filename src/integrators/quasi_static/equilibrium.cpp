@@ -26,8 +26,8 @@ constexpr double smallest_scale = 1e-4;
 // Factor on the forces by round-off: a body that moves a little has larger ones than a body at rest.
 constexpr double few = 4;
 
-// Ratio of the forces of a body at rest to the forces by round-off of positions, which canceling terms make some 200
-// with quadratic correspondence. Beyond the second one it is no round-off: the body is handed over strained.
+// Ratios of the forces of a body at rest to the forces by round-off of positions: usual with quadratic correspondence,
+// whose terms cancel; and largest by round-off: beyond it the body was handed over strained.
 constexpr double usual_cancelled = 200, most_cancelled = 1e4;
 
 // Root of the sum of squares over all points, N: positions have the error ε |X|, forces ω² m times that.
@@ -117,8 +117,8 @@ void Equilibrium::begin(double t, double dt) {
   check_values();
 }
 
-// Root of the sum of squares over all points, N: by the expansion of this step while the points stay. A free body has
-// no other forces.
+// Root of the sum of squares over all points, N, of the forces by the thermal expansion of this step with points at
+// rest. A free body has no other forces.
 double Equilibrium::force_of_expansion() {
   advance(0, t_, false);
   const std::vector<Vector> before = body_.force_density;

@@ -50,10 +50,10 @@ class Equilibrium {
   GaveWay give_way();
   // Collective. The largest stretch of a bond over the one at which it breaks, in the last trial; 0 if none breaks.
   double largest_stretch() const { return breaks_ ? fracture_->largest_stretch(body_) : 0; }
-  // J, of the last trial on this rank: work of the forces that faded, at least 0 where a stable body lost bonds.
+  // J, of the last trial on this rank: work of the fading forces of broken bonds; not negative if the body is stable.
   double work_of_jump() const;
 
-  // Moves all points with periodic sides, from the committed positions.
+  // Moves all points from the committed positions, as the periodic sides move.
   void follow_sides();
 
   // Collective. Evaluates the forces at the present positions of body().domain.sites.

@@ -16,9 +16,9 @@ struct Stop {
 };
 
 // Collective. Call it at the end of the whole step, with the imbalance `left` there; `power`: at the start of the step,
-// positive. Moves to the fraction of the step at which the power minus `drag` · fraction is at most half of `power` in
-// size. The norm of the forces is no measure beyond a kink, where a point begins to touch or to flow: stiff springs
-// dominate it.
+// positive. Stays if the power less `drag` · fraction is not negative there; else moves back, in at most 12
+// evaluations, to a fraction at which it is at most half of `power` in size. The norm of the forces is no measure
+// beyond a kink, where a point begins to touch or to flow: stiff springs dominate it.
 Stop search_downhill(Equilibrium& equilibrium, const Field& step, double power, double drag, const Imbalance& left);
 
 }  // namespace strut

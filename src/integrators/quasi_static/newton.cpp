@@ -168,9 +168,9 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
   return outcome.iterations;
 }
 
-// Takes the whole step if it reduces the forces, else the part of it that is downhill. A step that moves held points is
-// taken whole, because there is nothing to compare with. Damping suppresses motion that the tangent finds soft or
-// unstable: it is that of Levenberg and Marquardt, or an implicit step through a viscous medium.
+// Takes the whole step if it reduces the forces, else the part of it that is downhill, or none if its start is uphill.
+// A step that moves held points is taken whole, because there is nothing to compare with. Damping suppresses motion
+// that the tangent finds soft or unstable (Levenberg and Marquardt; or an implicit step through a viscous medium).
 Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
   Body& body = equilibrium_.body();
   const double power = power_along(equilibrium_, body, step);

@@ -21,8 +21,8 @@ constexpr int easily = 6;                // iterations of Newton per round up to
 constexpr double growth = 2;             // of the next step, at most
 constexpr double round_off = 1e-9;
 
-// A load step after which a bond is stretched by more than this over its critical stretch is cut, because the bond
-// breaks with what it holds then, but not below the second, relative to the longest step: a crack may run in any step.
+// A load step is shortened if it stretches a bond to more than this times its critical stretch, because the bond then
+// breaks with too much energy; but not below finest_break of the longest step: a crack may run in any step.
 constexpr double most_stretch = 1.02, finest_break = 1.0 / 16;
 
 // The balance error is relative to an energy of at least this multiple of the work of errors: a body that is only
@@ -54,8 +54,8 @@ double QuasiStatic::bytes(const Body& body, const QuasiStaticControl& control) {
   return committed + newton_bytes * body.owned() + TangentFactor(body).bytes();
 }
 
-// Extrapolates: points that moved in the last step continue at their rate, but not in a step far longer than that, as
-// that of a run which starts from another one's short steps.
+// Extrapolates: points that moved in the last step continue at their rate, except in a step far longer than the last,
+// such as the first one of a run that starts from another run's short steps.
 void QuasiStatic::extrapolate() {
   const double factor = last_dt_ > 0 ? dt_ / last_dt_ : growth + 1;
   if (factor > growth) return equilibrium_.follow_sides();
@@ -90,7 +90,7 @@ EquilibriumSearch QuasiStatic::search_in_rounds(bool with_tangent) {
 }
 
 // Where Newton stalls, the body is about to jump, fold or crush in layers: relaxation continues from there, through
-// states without a useful tangent, and Newton finishes what it leaves.
+// states without a useful tangent, and Newton finishes the search.
 EquilibriumSearch QuasiStatic::search(bool with_tangent) {
   const Tolerance& tolerance = control_.tolerance;
   EquilibriumSearch found =

@@ -77,7 +77,7 @@ EquilibriumSearch Relaxation::solve(const Tolerance& tolerance, int most) {
       search.converged = true;
       break;
     }
-    // Twice the frequency of the present motion, from its Rayleigh quotient with the stiffness along it.
+    // Damping: twice the frequency of the present motion, by its Rayleigh quotient with the stiffness along the motion.
     double sums[] = {dot(velocity, before) - dot(velocity, equilibrium_.residual()), 0};
     for (int i = 0; i < body.owned(); ++i) sums[1] += masses_[i] * velocity[i].squaredNorm();
     ranks.sum(sums);

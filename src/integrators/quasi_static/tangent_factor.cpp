@@ -17,8 +17,8 @@ constexpr double reach = 1.5;  // spacings
 // Transverse stiffness: springs along bonds alone would let chains of points buckle freely.
 constexpr double across = 0.1;  // of the spring's stiffness along its bond
 
-// Lower limit of the shear modulus of flowing material, relative to the elastic one; the bulk modulus stays. With 0.1
-// to 0.3 a bar in flow takes the fewest iterations.
+// Lower limit of the shear modulus of flowing material over its elastic one; the bulk modulus stays. Limits of 0.1 to
+// 0.3 need the fewest iterations for a bar in flow.
 constexpr double smallest_share = 0.1;
 
 // Grounding stiffness, relative to a point's own springs, for parts without any constraint (a body that slides between

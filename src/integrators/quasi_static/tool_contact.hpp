@@ -1,9 +1,9 @@
 // Forces of rigid tools on a body in equilibrium: unilateral contact with Coulomb friction by an augmented Lagrangian
 // (Simo & Laursen 1992). With the gap g, the slip s over the tool in the step, and the multipliers λ:
-//   t_n = max(0, λ_n − ε g),  t_t = λ_t − ε s, cut to |t_t| ≤ μ t_n
+//   t_n = max(0, λ_n − ε g),  t_t = λ_t − ½ ε s, cut to |t_t| ≤ μ t_n
 // While a point slides, the tangent is unsymmetric. An equilibrium at given multipliers leaves penetrations of the
-// order t/ε; then λ ← t, and so on until they are below a tolerance. So ε is no material constant: it only decides the
-// number of rounds.
+// order t/ε; then λ ← t, and the next equilibrium follows, until they are below a tolerance. So ε is no material
+// constant: it only decides the number of these rounds.
 #pragma once
 
 #include <vector>

@@ -25,8 +25,8 @@ Centers centers_of(const std::vector<HeldPoint>& points, const Communicator& ran
   return {before / sums[6], after / sums[6]};
 }
 
-// The rotation that takes the points nearest to their new places, in least squares (Kabsch); the identity where the
-// rest of their motion is no small part of it.
+// The rotation that takes the points nearest to their new positions, in least squares (Kabsch); the identity if the
+// rest of the motion is a large part of it.
 Tensor turn_of(const std::vector<HeldPoint>& points, const Centers& centers, const Communicator& ranks) {
   double sums[11] = {};
   Eigen::Map<Tensor> products(sums);
@@ -55,8 +55,8 @@ Tensor turn_of(const std::vector<HeldPoint>& points, const Centers& centers, con
 
 }  // namespace
 
-// In the frame that turns with the points, their places and forces change from x₀ to x₁ and f₀ to f₁ linearly; with the
-// vector ω of the turn the work is ∫ f·dx + ω·∫ x × f.
+// In the frame that turns with the points, their positions and forces change linearly from x₀ to x₁ and f₀ to f₁; with
+// the rotation vector ω of the turn, the work is ∫ f·dx + ω·∫ x × f.
 double work_beyond_chords(const std::vector<HeldPoint>& points, const Communicator& ranks) {
   const Centers centers = centers_of(points, ranks);
   const Tensor turn = turn_of(points, centers, ranks);

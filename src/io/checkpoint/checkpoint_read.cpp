@@ -53,7 +53,7 @@ std::vector<std::string> lines_of(const std::string& text) {
               ". A run can go on with another final time, and other times of output, not with another model");
 }
 
-// Checks that the file has what the snapshot has. `counts`: numbers of points over all ranks.
+// Checks that the file has all parts of the snapshot. `counts`: number of points of each group over all ranks.
 void compare(const fs::path& path, const NetcdfLists& file, const Snapshot& snapshot,
              const std::vector<std::int64_t>& counts) {
   int lists = 1 + static_cast<int>(snapshot.shares.size());  // the list of checksums counts, too
@@ -143,7 +143,7 @@ class PartsOfFile {
     for (const std::string& list : lists_) ids.contains(list) ? has<std::int64_t>(list) : has<double>(list);
   }
 
-  // Adds what the snapshot asks for and the file does not have; returns the numbers of its groups in the file.
+  // Adds the names that the snapshot asks for and the file lacks to `missing`; returns the numbers of its groups there.
   std::vector<int> compare(const Snapshot& snapshot, const std::vector<std::int64_t>& counts, const Takes& takes,
                            std::vector<std::string>& missing) const {
     for (const auto& [name, value] : snapshot.numbers) {

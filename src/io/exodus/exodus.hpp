@@ -128,9 +128,9 @@ struct Mesh {
 };
 void write_mesh(const std::filesystem::path& file, const Mesh& mesh);
 
-// The same where a mesh may be, or a link to one: the file is written beside it, under a name of this process, and
-// renamed when it is whole, so that a mesh that does not fit on the disk costs no earlier one. Throws Error, as
-// check_replaceable does before the work, if something else than a mesh is there or it may not be written.
+// The same where a mesh, or a link to one, may exist: writes the file beside it, under a name of this process, and
+// renames it when it is complete, so that a full disk costs no earlier mesh. Throws Error, as check_replaceable does
+// before the work, if another kind of file exists there or it may not be written.
 void replace_mesh(const std::filesystem::path& file, const Mesh& mesh);
 void check_replaceable(const std::filesystem::path& file);
 

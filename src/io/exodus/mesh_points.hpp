@@ -11,7 +11,8 @@
 
 namespace strut::io {
 
-// A point for each element, at its centroid; their surfaces are not set yet. `file`: the mesh's name, for errors.
+// A point for each element, at its centroid; the surfaces of the shapes are not set yet. `file`: name of the mesh, for
+// errors.
 // Throws Error on this rank: see read_exodus.
 PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells,
                               const std::vector<Mirror>& planes);

@@ -36,7 +36,7 @@ std::vector<Vector> places_of(const std::filesystem::path& path, const ExodusFil
   return places;
 }
 
-// Refuses what can be read, but not as it is meant.
+// Refuses elements that can be read, but not in their intended sense.
 std::vector<ExodusFile::Block> checked_blocks(const std::filesystem::path& path, const ExodusFile& file) {
   if (const std::int64_t axes = file.sizes().dimensions; axes != 3)
     throw Error(path.string() + ": the mesh has " + std::to_string(axes) + " dimensions, expected 3");

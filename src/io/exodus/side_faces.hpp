@@ -5,8 +5,8 @@
 
 namespace strut::io {
 
-// Collective. The faces without those on a periodic side that another face of the mesh meets from behind the other
-// side. `planes`: the sides, and symmetry planes.
+// Collective. The faces, except those on a periodic side that a face on the opposite side meets. `planes`: the sides,
+// and symmetry planes.
 std::vector<Face> without_continued(const std::vector<Face>& faces, const MeshSlice& slice,
                                     const std::vector<Mirror>& planes, const Communicator& communicator);
 

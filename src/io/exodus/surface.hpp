@@ -25,8 +25,9 @@ bool is_on(const Mirror& plane, const Face& face, const Mesh& mesh);
 // The bits (Mirror::bit) of the symmetry planes that it lies on; sides do not count.
 std::uint32_t planes_of(const std::vector<Mirror>& planes, const Face& face, const Mesh& mesh);
 
-// The surface faces of hexahedra and tetrahedra, in an order that depends only on the mesh: of the elements here, as if
-// there were no others; and, collective, those of the whole mesh that belong to elements here.
+// The surface faces of hexahedra and tetrahedra, in an order that depends only on the mesh. The first function takes
+// the elements on this rank for the whole mesh; the second, collective, returns the faces of the whole mesh that belong
+// to elements on this rank.
 std::vector<Face> surface_of(const Mesh& mesh);
 std::vector<Face> surface_of(const MeshSlice& slice, const Communicator& communicator);
 

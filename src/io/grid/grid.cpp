@@ -43,8 +43,8 @@ PointCloud part_of_grid(const Vector& origin, const Vector& cell, const std::arr
   return cloud;
 }
 
-// Adds the face of the last cell at X[axis] ± half an edge, X being its center; none on a periodic side, where the grid
-// goes on.
+// Adds the face of the last cell at X[axis] + half (±half an edge), X the cell's center; none on a periodic side, where
+// the grid continues.
 void add_end(const Vector& cell, int axis, double half, const std::vector<Mirror>& planes, PointCloud& cloud,
              FacesOnPlanes* apart) {
   FaceOnPlanes face{.point = cloud.shapes.size() - 1};

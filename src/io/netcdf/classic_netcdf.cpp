@@ -123,7 +123,7 @@ class Header {
     return variable;
   }
 
-  // Unwritten padding at the end is no loss, so sizes are not rounded up at the possible end of the file.
+  // Padding at the end of a file may be unwritten without loss, so the size of its last part is not rounded up.
   std::int64_t size_of(const std::vector<Variable>& variables) const {
     const auto padded = [](std::int64_t size) { return (size + 3) / 4 * 4; };
     std::int64_t record_size = 0;

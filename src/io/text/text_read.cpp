@@ -67,7 +67,7 @@ class TextFile {
   }
 
  private:
-  // A line that names the columns, as PeriLab's lists begin; they must be ours. Throws Error if they are not.
+  // True for the line that names the columns, with which PeriLab's lists begin. Throws Error if they are not strut's.
   bool is_header(const std::string& content) const {
     const std::vector<std::string> words = to_words(content);
     if (words[0] != "header:") return false;

@@ -5,8 +5,8 @@
 
 namespace strut {
 
-// The representation of the families of a body: a stencil if its points are on a lattice and that is faster, or the
-// kind that is asked for. Lists are for code that reads them; a body whose blocks want different kinds gets lists.
+// The representation of the families of a body. `fastest`: a stencil if its points are on a lattice and sums are faster
+// by it, else lists. `lists`: for code that reads them; a body whose blocks want different kinds gets lists.
 enum class FamilyKind { fastest, stencil, lists };
 
 // The bonds of a block's points: their horizon δ, and the body that they belong to. Different bodies are not bonded to

@@ -60,7 +60,7 @@ struct CandidatePool {
   std::vector<double> horizons;
   std::vector<int> bodies;
   std::vector<char> asks;      // 1: for visibility; 2: for touching points
-  std::vector<double> deltas;  // δ, m; `horizons` are those of the search
+  std::vector<double> deltas;  // δ, m; `horizons`: δ times search_factor()
   std::vector<int> owners;     // ranks of the candidates
 
   // A point on a symmetry plane, with the computed half of its cell, coincides with its image.

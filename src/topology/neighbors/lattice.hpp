@@ -1,9 +1,9 @@
 // Bodies whose points are on a lattice: neighbors follow from the positions in it, and no bond is stored.
 //
-// The lattice is divided into pencils of eight cells along x. Slots number the pencils with points of this rank, owned
-// or ghosts, and the next ones in x that their rows reach into, by z, y, x from 1 on; slot 0 stands for all empty
-// pencils. A grid over the bounding box stores the slot of each pencil. The family of a point is a stencil: rows (y, z)
-// of cells with |x| ≤ the row's reach.
+// The lattice is divided into pencils of eight cells along x. Pencils with points of this rank (owned or ghosts), and
+// those beside them in x that rows reach, have slots: numbers from 1 on, ordered by z, y, x. Slot 0 stands for all
+// empty pencils. A grid over the bounding box stores the slot of each pencil. The family of a point is a stencil: rows
+// (y, z) of cells with |x| ≤ the row's reach.
 #pragma once
 
 #include <bit>

@@ -8,9 +8,9 @@
 
 namespace strut {
 
-// The order of points and ghosts in memory, as indices in the pool: owned points without ghosts in their family first,
-// then the others, both by blocks and along the curve, or by their lattice; then the ghosts in any family, ordered by
-// id (the ranks that own them send runs of ids).
+// The order of points and ghosts in memory, as indices in the pool: owned points without ghosts in their family, then
+// the other owned points, both by blocks and along the curve or their lattice; then the ghosts that are in a family, by
+// id (so that the ranks that own them send runs of ids).
 struct Order {
   std::vector<int> points, ghosts;
   std::size_t listed = 0;  // number of bonds of points with lists

@@ -19,8 +19,8 @@ struct Stencils {
 Stencils stencils_of(const std::vector<LatticeFrame>& frames, const std::vector<Vector>& positions,
                      const std::vector<int>& bodies, int owned);
 
-// Collective. Those lattices that also contain the images of their points, extended to hold them; without lattices
-// whose images are on cells of points.
+// Collective. The lattices of `found` on which the images of their points lie, too, extended to hold these images;
+// without lattices on which an image has the cell of a point.
 std::vector<LatticeFrame> frames_with_images(const std::vector<LatticeFrame>& found, const CandidatePool& pool,
                                              int owned, const Mirrored& mirrored, const Communicator& communicator);
 
@@ -39,8 +39,7 @@ void for_each_neighbor(const Stencils& stencils, const Search& search, const Can
   }
 }
 
-// The approximate time of a step for the bonds of a point of each block, ns; true if any are summed by
-// stencils.
+// Approximate time of a step for the bonds of a point, ns, in each block; whether stencils sum the bonds of any block.
 struct BondCosts {
   std::vector<double> of_block;
   bool by_stencils = false;

@@ -5,7 +5,7 @@
 
 namespace strut {
 
-// Collective. The largest number of bonds, broken ones included, of a point of any rank.
+// Collective. The largest number of bonds of a point over all ranks, broken bonds included.
 std::size_t largest_whole_family(const Domain& domain);
 
 }  // namespace strut

@@ -17,7 +17,7 @@ from .places import TOOLS, part_of_the_tools
 from .run import Run
 
 STRESS = "Stress (Pa) of "  # in a table of tools/curve
-FILE = "sample"  # of what is written for a tool
+FILE = "sample"  # stem of the names of files written for a tool
 read_files = part_of_the_tools("shared", "read_files")
 TEXTS = ("measure", "unit", "finding")  # columns of convergence.csv
 
