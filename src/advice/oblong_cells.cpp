@@ -82,7 +82,7 @@ std::string uneven_dilatation(const Situation& situation) {
          << "of the material model 'Elastic' counts strain along one direction " << counts[0]
          << " times and along another " << counts[2]
          << " times, and stress and wave speeds are off by as much or more; expected cubes, or 'Elastic "
-            "Correspondence'\n";
+            "Correspondence' by Formulation 'Quadratic Correspondence'\n";
   }
   return text.str();
 }

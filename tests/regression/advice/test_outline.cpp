@@ -672,6 +672,27 @@ TEST(OblongCells, OfOrdinaryPointsSurfacesAndCracksAreToldOf) {
   expect_told(told(itself), {dilatation, surfaces});
 }
 
+// Bars of such tetrahedra were found to have 0.77 of Young's modulus, and 0.999 by their nodes.
+TEST(Tetrahedra, ByTheMeanGradientAreToldOf) {
+  const RunFolder folder;
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "tetrahedra.g", in_tetrahedra(Lattice().mesh())); });
+  const auto told = [&](const std::string& mesh, const std::string& formulation, const std::string& points) {
+    Parts parts;
+    parts.mesh_file = mesh, parts.points = points;
+    parts.materials = changed(copper(), key("Density", "8930"), key("Density", "8930") + formulation);
+    parts.blocks =
+        section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  const std::string soft = "576 points are at centers of tetrahedra, where a uniform stress is no equilibrium",
+                    quadratic = key("Formulation", "Quadratic Correspondence");
+  expect_told(told("tetrahedra.g", "", ""), {"WARNING: block 'bar': " + soft});
+  for (const std::string& said :
+       {told("tetrahedra.g", quadratic, ""), told("tetrahedra.g", "", "Nodes"), told("bar.g", "", "")}) {
+    EXPECT_EQ(said.find("centers of tetrahedra"), std::string::npos) << said;
+  }
+}
+
 // The sums over points of a single row, and over points beside a surface that is oblique to the axes of space, tell
 // nothing of the lattice.
 TEST(OblongCells, CubesOfTurnedAndThinBarsAreNone) {
