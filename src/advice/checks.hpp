@@ -125,7 +125,7 @@ std::string narrow_surfaces_of_nodes(const Situation& situation);
 // ---- oblong_cells.cpp
 
 // A warning for each block of ordinary points on a lattice that is not cubic, whose dilatation depends on the
-// direction.
+// direction: by how much only where no surface is near.
 std::string uneven_dilatation(const Situation& situation);
 
 // A warning for each block with cells that are no cubes, if it has contact by surfaces or a fracture energy.

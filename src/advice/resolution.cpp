@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "advice/lattice_axes.hpp"
 #include "base/errors.hpp"
 #include "base/text.hpp"
 #include "mechanics/expected_error.hpp"
@@ -49,11 +50,11 @@ std::string resolution_of_thin(const materials::AnyLaw& law, double thickness, b
          "; tools/study --converge spacing measures it (docs/resolution.md)";
 }
 
-std::string told_of_thin(const MaterialBlock& block, Influence influence, double horizon, double thickness,
-                         bool whole) {
+std::string told_of_thin(const MaterialBlock& block, Influence influence, double horizon, double thickness, bool whole,
+                         bool cubic) {
   switch (block.material.formulation) {
-    case Formulation::ordinary:
-      return stiffness_of_thin(influence, horizon, thickness);
+    case Formulation::ordinary:  // measured on cubes; uneven_dilatation() tells of others
+      return cubic ? stiffness_of_thin(influence, horizon, thickness) : "";
     case Formulation::correspondence:
       return bending_of_thin(horizon, thickness);
     case Formulation::quadratic:
@@ -84,12 +85,14 @@ std::string thin_members(const Situation& situation) {
   const Body& body = situation.scene.body;
   const std::vector<double>& all = situation.members;
   const std::vector<bool> whole = of_whole_cells(body.domain);
+  const std::vector<double> uneven = unevenness_of_lattices(body);
   std::ostringstream text;
   text.precision(2);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const double spacing = body.domain.blocks[b].spacing;
     const double horizon = spacing > 0 ? body.domain.blocks[b].largest / spacing : 0;
-    const std::string found = told_of_thin(body.blocks[b], body.influence, horizon, all[b], whole[b]);
+    const std::string found =
+        told_of_thin(body.blocks[b], body.influence, horizon, all[b], whole[b], uneven[b] < uneven_from);
     if (found.empty()) continue;
     text << "block '" << body.blocks[b].name << "': members are " << all[b] << " spacings thick (4 volume/surface); "
          << found << "\n";
