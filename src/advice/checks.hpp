@@ -114,7 +114,8 @@ std::string flat_families(const Situation& situation);
 // A warning for each block with ordinary points whose neighbors lie in a plane, if the deck asks for a variable of F.
 std::string unknown_gradients(const Situation& situation);
 
-// The warnings of blocks with points that are bonded to others of other horizons.
+// The warnings of blocks whose points are not in equilibrium under a uniform stress: those at the centers of tetrahedra
+// by the mean gradient, and those that are bonded to others of other horizons.
 std::string unequal_horizons(const Situation& situation);
 
 // A warning for the blocks with points at nodes that touch by surfaces and are so narrow that the contact
@@ -124,7 +125,7 @@ std::string narrow_surfaces_of_nodes(const Situation& situation);
 // ---- oblong_cells.cpp
 
 // A warning for each block of ordinary points on a lattice that is not cubic, whose dilatation depends on the
-// direction.
+// direction: by how much only where no surface is near.
 std::string uneven_dilatation(const Situation& situation);
 
 // A warning for each block with cells that are no cubes, if it has contact by surfaces or a fracture energy.

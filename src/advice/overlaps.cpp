@@ -18,7 +18,8 @@ namespace strut {
 namespace {
 
 // Limit of a family's volume over that of the sphere: lattices have at most 1.2 from a horizon of 1.5 spacings on,
-// meshes of other elements 1 ± 0.25; a body that is defined twice has 2.
+// meshes of other elements 1 ± 0.25; a body that is defined twice has 2. Larger neighbors than the point reach out of
+// that sphere by half of what their edges have more.
 constexpr double crowded = 1.65;
 constexpr double least_horizon = 1.5;  // in edges of a cube with the point's volume
 // Elements of two parts of a mesh, which have no node in common: nearer than this, in edges of such a cube, points of a
@@ -33,8 +34,14 @@ struct Grain {
   Vector at() const { return Vector(place); }
 };
 
-// Collective. For each owned point the volume of its body within the horizon, itself included, bonded or not.
-std::vector<double> volumes_within_horizons(const Domain& domain) {
+// Points within a point's horizon, itself included.
+struct Within {
+  double volume = 0, edges = 0, count = 0;  // sums: m³; of cubes with the points' volumes, m
+  void add(double of_point) { volume += of_point, edges += std::cbrt(of_point), count += 1; }
+};
+
+// Collective. For each owned point those of its body, bonded or not.
+std::vector<Within> within_horizons(const Domain& domain) {
   std::vector<Grain> grains;
   Eigen::AlignedBox3d mine;
   double reach = 0;
@@ -48,33 +55,35 @@ std::vector<double> volumes_within_horizons(const Domain& domain) {
   add_nearby(grains, mine, reach, domain.communicator);
   const std::vector<Vector> places = places_of(grains);
   const CellGrid grid(places, reach);
-  std::vector<double> volumes(domain.owned, 0);
+  std::vector<Within> all(domain.owned);
   for (int i = 0; i < domain.owned; ++i) {
     const double horizon = domain.horizon(i);
     grid.visit_near(places[i], [&](int j, const Vector& y) {
       const bool is_within = (y - places[i]).squaredNorm() < horizon * horizon;
-      if (is_within && grains[j].body == grains[i].body) volumes[i] += grains[j].volume;
+      if (is_within && grains[j].body == grains[i].body) all[i].add(grains[j].volume);
     });
   }
-  return volumes;
+  return all;
 }
 
-// The volume (m³) of owned point i and of those points of its family that lie within its own horizon: the family of a
-// small point also holds larger points farther away.
-double volume_of_neighbors(const Domain& domain, int i) {
+// Owned point i and those points of its family that lie within its own horizon: the family of a small point also holds
+// larger points farther away.
+Within neighbors_within(const Domain& domain, int i) {
   const double horizon = domain.horizon(i);
-  double volume = domain.volume(i);
+  Within all;
+  all.add(domain.volume(i));
   domain.families.for_each(i, [&](int j) {
     const bool is_within = (domain.reference(j) - domain.reference(i)).squaredNorm() < horizon * horizon;
-    if (is_within) volume += domain.volume(j);
+    if (is_within) all.add(domain.volume(j));
   });
-  return volume;
+  return all;
 }
 
-bool is_crowded(const Domain& domain, int i, double volume_within) {
-  const double horizon = domain.horizon(i);
-  if (horizon < least_horizon * std::cbrt(domain.volume(i))) return false;
-  return volume_within > crowded * 4 * std::numbers::pi / 3 * horizon * horizon * horizon;
+bool is_crowded(const Domain& domain, int i, const Within& within) {
+  const double horizon = domain.horizon(i), edge = std::cbrt(domain.volume(i));
+  if (horizon < least_horizon * edge) return false;
+  const double reach = horizon + std::max(0.0, within.edges / within.count - edge) / 2;
+  return within.volume > crowded * 4 * std::numbers::pi / 3 * reach * reach * reach;
 }
 
 // In a body of several pieces, visibility may leave out bonds between coincident points; otherwise families show them.
@@ -86,12 +95,12 @@ bool has_pieces(const Domain& domain, std::int64_t pieces) {
 
 std::string crowds(const Body& body, std::int64_t pieces) {
   const Domain& domain = body.domain;
-  std::vector<double> volumes;
-  if (has_pieces(domain, pieces)) volumes = volumes_within_horizons(domain);
+  std::vector<Within> within;
+  if (has_pieces(domain, pieces)) within = within_horizons(domain);
   std::vector<int> points;
   for (int i = 0; i < body.owned(); ++i) {
     if (domain.families.lattice(i)) continue;
-    if (is_crowded(domain, i, volumes.empty() ? volume_of_neighbors(domain, i) : volumes[i])) points.push_back(i);
+    if (is_crowded(domain, i, within.empty() ? neighbors_within(domain, i) : within[i])) points.push_back(i);
   }
   const FoundPoints found = found_points(body, {points})[0];
   if (found.count == 0) return "";

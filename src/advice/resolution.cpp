@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "advice/lattice_axes.hpp"
 #include "base/errors.hpp"
 #include "base/text.hpp"
 #include "mechanics/expected_error.hpp"
@@ -25,8 +26,8 @@ std::string stiffness_of_thin(Influence influence, double horizon, double thickn
   return text_of(
       std::setprecision(2), "bars so thick were found ", 100 * std::abs(found - 1), " % too ",
       found > 1 ? "stiff" : "soft",
-      " in tension by the material model 'Elastic' (along the axes of a lattice); 'Elastic Correspondence' keeps "
-      "Young's modulus");
+      " in tension by the material model 'Elastic' (along the axes of a lattice); of cubes 'Elastic Correspondence' "
+      "keeps Young's modulus");
 }
 
 // The warning for correspondence.
@@ -49,11 +50,11 @@ std::string resolution_of_thin(const materials::AnyLaw& law, double thickness, b
          "; tools/study --converge spacing measures it (docs/resolution.md)";
 }
 
-std::string told_of_thin(const MaterialBlock& block, Influence influence, double horizon, double thickness,
-                         bool whole) {
+std::string told_of_thin(const MaterialBlock& block, Influence influence, double horizon, double thickness, bool whole,
+                         bool cubic) {
   switch (block.material.formulation) {
-    case Formulation::ordinary:
-      return stiffness_of_thin(influence, horizon, thickness);
+    case Formulation::ordinary:  // measured on cubes; uneven_dilatation() tells of others
+      return cubic ? stiffness_of_thin(influence, horizon, thickness) : "";
     case Formulation::correspondence:
       return bending_of_thin(horizon, thickness);
     case Formulation::quadratic:
@@ -84,12 +85,14 @@ std::string thin_members(const Situation& situation) {
   const Body& body = situation.scene.body;
   const std::vector<double>& all = situation.members;
   const std::vector<bool> whole = of_whole_cells(body.domain);
+  const std::vector<double> uneven = unevenness_of_lattices(body);
   std::ostringstream text;
   text.precision(2);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const double spacing = body.domain.blocks[b].spacing;
     const double horizon = spacing > 0 ? body.domain.blocks[b].largest / spacing : 0;
-    const std::string found = told_of_thin(body.blocks[b], body.influence, horizon, all[b], whole[b]);
+    const std::string found =
+        told_of_thin(body.blocks[b], body.influence, horizon, all[b], whole[b], uneven[b] < uneven_from);
     if (found.empty()) continue;
     text << "block '" << body.blocks[b].name << "': members are " << all[b] << " spacings thick (4 volume/surface); "
          << found << "\n";
@@ -168,6 +171,36 @@ std::string unknown_gradients(const Situation& situation) {
   return text;
 }
 
+namespace {
+
+// The families of their centers have no symmetry. Cells by quadratic correspondence need none: their fits balance a
+// uniform stress.
+std::string centers_of_tetrahedra(const Situation& situation) {
+  constexpr std::size_t corners = 4;
+  if (situation.deck.discretization.type == deck::MeshType::grid) return "";  // shared nodes may be those of boxes
+  const Body& body = situation.scene.body;
+  const PointCloud& cloud = body.domain.cloud;
+  std::vector<std::vector<int>> of_tetrahedra(body.blocks.size());
+  for (std::size_t b = 0; b < body.blocks.size() && cloud.at == PointsAt::elements; ++b) {
+    if (body.blocks[b].is_ordinary() || body.blocks[b].is_quadratic() || cloud.shared_nodes.empty()) continue;
+    for (const int i : body.blocks[b].points) {
+      if (cloud.shared_nodes[i].size() == corners) of_tetrahedra[b].push_back(i);
+    }
+  }
+  const std::vector<FoundPoints> found = found_points(body, of_tetrahedra);
+  std::string text;
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (found[b].count == 0) continue;
+    text += text_of("WARNING: block '", body.blocks[b].name, "': ", found[b].count,
+                    " points are at centers of tetrahedra, where a uniform stress is no equilibrium of the mean "
+                    "gradient (bars of tetrahedra were found up to 25 % too soft in tension); expected Formulation "
+                    "'Quadratic Correspondence', Points \"Nodes\", or hexahedra\n");
+  }
+  return text;
+}
+
+}  // namespace
+
 // Not of cells by quadratic correspondence, whose fits balance a uniform stress whatever the families around.
 std::string unequal_horizons(const Situation& situation) {
   constexpr double of_blocks = 1.1, in_a_block = 1.6;  // a fitted cone has 1.5 between neighbors
@@ -202,7 +235,7 @@ std::string unequal_horizons(const Situation& situation) {
             "60 % at 1.7 and 90 % at 2); expected one horizon and spacing (Blocks > Horizon), or bodies "
             "that meet in contact (Separate Body)\n";
   }
-  return text.str();
+  return centers_of_tetrahedra(situation) + text.str();
 }
 
 std::string narrow_surfaces_of_nodes(const Situation& situation) {

@@ -13,6 +13,7 @@
 #include "base/text.hpp"
 #include "base/timing.hpp"
 #include "io/exodus/exodus.hpp"
+#include "io/exodus/unmatched_faces.hpp"
 #include "io/grid/grid.hpp"
 #include "setup/blocks.hpp"
 #include "setup/mirrors.hpp"
@@ -211,6 +212,37 @@ void check_places(const deck::Deck& deck, const PointCloud& cloud, const Communi
   };
   const std::string twins = coincident_points(cloud, communicator, allowed);
   if (!twins.empty()) problems.add(mesh_key, twins);
+}
+
+namespace {
+
+std::vector<io::UnmatchedFaces> unmatched_faces(const deck::Deck& deck, const Communicator& communicator,
+                                                const io::Mesh* in_memory) {
+  const deck::Discretization& discretization = deck.discretization;
+  const bool has_fits = std::any_of(deck.materials.begin(), deck.materials.end(), is_quadratic);
+  if (!has_fits || discretization.points == deck::Points::nodes) return {};
+  if (discretization.type == deck::MeshType::exodus) return io::unmatched_faces(discretization.mesh, communicator);
+  if (discretization.type != deck::MeshType::memory) return {};
+  return io::unmatched_faces(in_memory ? *in_memory : io::Mesh(), communicator);
+}
+
+}  // namespace
+
+// Each of the two would count as free surface in the fit of its cell.
+void check_faces(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
+                 const io::Mesh* in_memory, deck::Problems& problems) {
+  for (const auto& [block, other, count, element] : unmatched_faces(deck, communicator, in_memory)) {
+    const deck::Block *one = section_of(deck, cloud.block_names[block]),
+                      *next = section_of(deck, cloud.block_names[other]);
+    if (!one || !next || (one != next && (one->separate_body || next->separate_body))) continue;
+    if (!is_quadratic(deck.materials[one->material]) && !is_quadratic(deck.materials[next->material])) continue;
+    problems.add(mesh_key,
+                 text_of(count, " faces of elements of block '", cloud.block_names[block], "', the first of element ",
+                         element, ", meet faces with other corners of block '", cloud.block_names[other],
+                         "', and Formulation 'Quadratic Correspondence' would take both for free surface "
+                         "(bars of such tetrahedra bear a third of their load); expected a mesh in which "
+                         "neighbors have a face in common (squares halved along one diagonal)"));
+  }
 }
 
 void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, const Communicator& communicator,

@@ -17,6 +17,10 @@ PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, c
 // Collective. Reports names of the mesh that have another meaning in a deck.
 void check_names(const PointCloud& cloud, const Communicator& communicator, deck::Problems& problems);
 
+// Collective. Reports faces in a body by quadratic correspondence that meet others with other corners.
+void check_faces(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
+                 const io::Mesh* in_memory, deck::Problems& problems);
+
 // Collective. Reports coincident points, and positions that the floating-point numbers do not resolve.
 void check_places(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
                   deck::Problems& problems);

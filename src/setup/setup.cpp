@@ -140,6 +140,7 @@ PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, dec
   const std::vector<double> spacings = mean_spacings(cloud, communicator);
   check_blocks(deck, cloud, spacings, problems);
   check_horizons(deck, cloud, spacings, problems);
+  check_faces(deck, cloud, communicator, in_memory, problems);
   check_places(deck, cloud, communicator, problems);
   add_node_sets(deck.node_sets, cloud, communicator, problems);
   check_conditions(deck, cloud, communicator, problems);

@@ -1,7 +1,9 @@
 // Lattices whose cells are no cubes, and turned ones.
 #pragma once
 
+#include <array>
 #include <numbers>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "io/exodus/exodus.hpp"
@@ -21,9 +23,14 @@ inline Tensor turned_by(double degrees, const Vector& axis) {
   return Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis.normalized()).toRotationMatrix();
 }
 
-// Each hexahedron as six tetrahedra around one diagonal, the same on opposite faces.
-inline io::Mesh in_tetrahedra(io::Mesh mesh) {
-  constexpr int corners[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+using Tetrahedra = std::vector<std::array<int, 4>>;  // corners in a hexahedron
+// Six around one diagonal, the same on opposite faces.
+inline const Tetrahedra around_diagonal{{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
+                                        {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+// Five, which halve opposite faces along crossed diagonals: faces of neighbors do not match.
+inline const Tetrahedra at_corners{{0, 1, 3, 4}, {1, 2, 3, 6}, {1, 4, 5, 6}, {3, 4, 6, 7}, {1, 3, 4, 6}};
+
+inline io::Mesh in_tetrahedra(io::Mesh mesh, const Tetrahedra& corners = around_diagonal) {
   for (io::Mesh::Block& block : mesh.blocks) {
     std::vector<int> nodes;
     for (std::size_t e = 0; e < block.elements(); ++e) {

@@ -129,6 +129,18 @@ TEST(Overlaps, AreNotToldWhereCellsGrow) {
   }
 }
 
+// The small horizon of a small cell holds whole volumes of large ones that reach out of it: 4.09 mm³ where 2.05 fit.
+TEST(Overlaps, AreNotToldOfASmallCellAmongLargeOnes) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, Vector::Zero(), 6, 6, 6, 1e-3) + "0.003 0.003 0.0025 1 9e-11\n");
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.blocks =
+      section("one", key("Block Names", "block_1") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+  const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+  EXPECT_EQ(told_at_the_start(deck, folder.world).warnings.find("as much material"), std::string::npos);
+}
+
 // The warnings of a bar of cells of 1 mm that is given twice, the second time shifted and with nodes of its own.
 std::string told_of_two(const Lattice& bar, const Vector& apart, Parts parts = {}) {
   const RunFolder folder;

@@ -8,6 +8,7 @@
 
 #include "deck/problems.hpp"
 #include "regression/bodies.hpp"
+#include "regression/stretched.hpp"
 #include "run/report.hpp"
 #include "run/simulation.hpp"
 
@@ -190,6 +191,40 @@ TEST_F(Mistake, PointsGivenTwice) {
     expect_error(changed(deck, file, file + key("Points", "Nodes")),
                  {"twice.g: element 97 of block 'plate' is where element 1 of block 'bar' is"});
   }
+}
+
+// Neighbors by quadratic correspondence whose faces have other corners: squares halved along crossed diagonals (four
+// triangles at each of the 224 squares inside), or not halved on one side.
+TEST_F(Mistake, FacesOfNeighborsThatDoNotMatch) {
+  const Lattice lattice;  // 4 × 4 × 6 cubes
+  const io::Mesh cubes = lattice.mesh();
+  io::Mesh mixed = cubes;  // the lower half of it in tetrahedra that match each other
+  io::Mesh::Block& lower = mixed.blocks[0];
+  const std::vector<int> upper(lower.nodes.begin() + 8 * 48, lower.nodes.end());
+  lower.nodes.resize(8 * 48);
+  mixed = in_tetrahedra(mixed);
+  mixed.blocks.push_back({"plate", "HEX8", upper, {}, {}});
+  run_on_root(world, [&] {
+    io::write_mesh(folder / "five.g", in_tetrahedra(cubes, at_corners));
+    io::write_mesh(folder / "six.g", in_tetrahedra(cubes));
+    io::write_mesh(folder / "mixed.g", mixed);
+  });
+  Parts parts = right_parts();
+  parts.times = key("Final Time", "1e-7");
+  const auto of = [&](const std::string& mesh, const std::string& name) {
+    parts.blocks = section("metal", key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3"));
+    return changed(parts.text(), "bar.g", mesh);
+  };
+  EXPECT_EQ(outcome(of("five.g", "bar")).value_or("no error"), "no error");  // the mean gradient knows no faces
+  parts.materials = copper(key("Yield Stress", "400e6") + key("Formulation", "Quadratic Correspondence"));
+  EXPECT_EQ(outcome(of("six.g", "bar")).value_or("no error"), "no error");
+  expect_error(of("five.g", "bar"),
+               {"Discretization > Input Mesh File: 896 faces of elements of block 'bar', the first of element 2, meet "
+                "faces with other corners of block 'bar'",
+                "1 problem"});
+  expect_error(of("mixed.g", "bar plate"),
+               {"32 faces of elements of block 'bar'", "16 faces of elements of block 'plate'",
+                "other corners of block 'bar'", "expected a mesh in which neighbors have a face in common"});
 }
 
 // Coincident nodes of one body, between which bonds would be, are found; the faces of two bodies may touch.
