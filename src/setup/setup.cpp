@@ -69,6 +69,28 @@ void add_contact(const deck::Deck& deck, Scene& scene) {
   scene.contact = contact::Contact(interactions, scene.body.domain);
 }
 
+// The same body for the steps of the second solver, without conditions.
+deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, std::optional<Fracture> fracture, Scene& scene) {
+  deck::Deck next = deck;
+  next.solver = *deck.next_solver;
+  next.next_solver.reset();
+  next.start_from.reset();  // it is the equilibria that began there
+  deck::take_default_interval(next.solver.duration(), next.output);
+  deck::take_default_interval(next.solver.duration(), next.history);
+  next.solver.rebalance = std::numeric_limits<double>::infinity();  // another partition begins with a body at rest
+  if (!next.solver.keeps_velocities) std::ranges::fill(scene.body.velocity, Vector::Zero());
+  scene.body.previous_velocity = *scene.body.velocity;
+  scene.conditions = {};
+  scene.body.heated.clear();
+  scene.tools.clear();
+  scene.warnings.clear();
+  scene.quasi_static.reset();
+  scene.control = control_of(next);
+  scene.contact = std::move(contact);
+  scene.fracture = std::move(fracture);
+  return next;
+}
+
 }  // namespace
 
 void keep_expansion(bool has_expanded, Body& body) {
@@ -90,27 +112,6 @@ Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicat
   keep_expansion(kept.has_expanded, scene.body);
   add_contact(deck, scene);
   return scene;
-}
-
-deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, std::optional<Fracture> fracture, Scene& scene) {
-  deck::Deck next = deck;
-  next.solver = *deck.next_solver;
-  next.next_solver.reset();
-  next.start_from.reset();  // it is the equilibria that began there
-  deck::take_default_interval(next.solver.duration(), next.output);
-  deck::take_default_interval(next.solver.duration(), next.history);
-  next.solver.rebalance = std::numeric_limits<double>::infinity();  // another partition begins with a body at rest
-  if (!next.solver.keeps_velocities) std::ranges::fill(scene.body.velocity, Vector::Zero());
-  scene.body.previous_velocity = *scene.body.velocity;
-  scene.conditions = {};
-  scene.body.heated.clear();
-  scene.tools.clear();
-  scene.warnings.clear();
-  scene.quasi_static.reset();
-  scene.control = control_of(next);
-  scene.contact = std::move(contact);
-  scene.fracture = std::move(fracture);
-  return next;
 }
 
 deck::Deck set_up_next(const deck::Deck& deck, const Conditions& held, contact::Contact contact,

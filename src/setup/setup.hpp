@@ -48,7 +48,5 @@ Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicat
 // and broken bonds. Returns the deck of the explicit steps; scene.warnings are those of the explicit steps.
 deck::Deck set_up_next(const deck::Deck& deck, const Conditions& held, contact::Contact contact,
                        std::optional<Fracture> fracture, Scene& scene);
-// The same without conditions, for a forecast: conditions might not fit the present positions of the body.
-deck::Deck next_of(const deck::Deck& deck, contact::Contact contact, std::optional<Fracture> fracture, Scene& scene);
 
 }  // namespace strut

@@ -12,9 +12,9 @@ namespace strut::regression {
 namespace {
 
 // The bar's deck with equilibria up to 1 s, then explicit steps.
-std::string deck_of(Parts parts) {
+std::string deck_of(Parts parts, const std::string& load_steps = "2") {
   parts.times = key("Final Time", "1");
-  const std::string first = section("QuasiStatic", key("Number of Load Steps", "2"));
+  const std::string first = section("QuasiStatic", key("Number of Load Steps", load_steps));
   const std::string next = section("Solver 2", key("Final Time", "1.000005") + section("Verlet", ""));
   return changed(parts.text(), section("Solver", parts.times + section("Verlet", parts.verlet)),
                  section("Solver", parts.times + first) + next);
@@ -210,6 +210,27 @@ TEST(TwoSolvers, ACheckTellsOfTheSteps) {
   const std::size_t next = said.find("Solver 2, with the body after these load steps:");
   ASSERT_NE(next, std::string::npos) << said;
   EXPECT_NE(said.find("critical time step", next), std::string::npos) << said;
+}
+
+// An end takes off inertia, and with it a fifth of the step: a check knows it, also if it makes only two load steps.
+TEST(TwoSolvers, ACheckKnowsTheEndsOfTheSteps) {
+  Parts parts;
+  parts.conditions =
+      stand + along("low", "Prescribed Displacement", "foot", "z", "1e-5*t") +
+      section("end", key("Type", "Non-Reflecting End") + key("Node Set", "top") + key("Normal", "0 0 1"));
+  const std::vector<double> times = history_of(parts, {}).at("Time");
+  for (const char* load_steps : {"2", "4"}) {
+    const RunFolder folder;
+    const std::filesystem::path deck = folder.write("deck.xml", deck_of(parts, load_steps));
+    testing::internal::CaptureStdout();
+    check(deck, folder.world);
+    const std::string said = testing::internal::GetCapturedStdout();
+    if (folder.world.rank() != 0) continue;
+    const std::size_t at = said.find(" steps of ");
+    ASSERT_NE(at, std::string::npos) << said;
+    const double dt = times.at(3) - times.at(2);                          // the first one after two load steps
+    EXPECT_NEAR(std::stod(said.substr(at + 10)), dt, 0.04 * dt) << said;  // the run takes 26 equal steps
+  }
 }
 
 // One condition, or one body at rest, keeps all bonds from breaking in the equilibria.
