@@ -66,14 +66,17 @@ double square_of_side_forces(const Body& body, std::vector<Vector> forces) {
   return sum / static_cast<double>(ranks.sum(static_cast<std::int64_t>(body.owned())));
 }
 
-// Points with the forces by which conditions hold them, from all that act on them.
-std::vector<HeldPoint> held_points(const Body& body, const Constraints& constraints, const Committed& start,
-                                   const Field& before, const Field& after) {
-  std::vector<HeldPoint> points;
+// For each body, points with the forces by which conditions hold them, from all that act on them. Bodies turn each by
+// itself.
+std::vector<std::vector<HeldPoint>> held_points(const Body& body, const Constraints& constraints,
+                                                const Committed& start, const Field& before, const Field& after) {
+  int bodies = 0;
+  for (const BlockHorizons& block : body.domain.blocks) bodies = std::max(bodies, block.body + 1);
+  std::vector<std::vector<HeldPoint>> points(bodies);
   for (int i = 0; i < body.owned(); ++i) {
     const Tensor held = Tensor::Identity() - constraints.free_projection(i);
     if (held.squaredNorm() < 0.5) continue;  // 1, 2 or 3 where it is held
-    points.push_back({start.place(i), body.current(i), -held * before[i], -held * after[i]});
+    points[body.domain.body_of(i)].push_back({start.place(i), body.current(i), -held * before[i], -held * after[i]});
   }
   return points;
 }
@@ -431,8 +434,9 @@ void Equilibrium::serialize_search(Archive& archive) {
 
 double Equilibrium::external_work() const {
   double sum = period_work(body_.domain, mirror_forces_before_, mirror_forces_, t_, dt_);
-  const std::vector<HeldPoint> held = held_points(body_, *constraints_, committed_, forces_before_, forces_);
-  sum += work_beyond_chords(held, body_.domain.communicator);
+  for (const auto& held : held_points(body_, *constraints_, committed_, forces_before_, forces_)) {
+    sum += work_beyond_chords(held, body_.domain.communicator);
+  }
   for (int i = 0; i < body_.owned(); ++i) {
     sum += 0.5 * (outer_before_[i] + outer_[i]).dot(body_.current(i) - committed_.place(i));
   }

@@ -307,6 +307,38 @@ TEST(SlowLoading, EachBodyIsInEquilibriumByItsOwnForces) {
   }
 }
 
+// A body that is turned at one end takes the same work beside one that rests in a clamp of its own.
+TEST(SlowLoading, EachBodyTurnsByItself) {
+  const auto work = [](bool with_another) {
+    Parts parts;
+    parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+    std::string points = cubes(1, {0, 0, 0}, 3, 3, 8, 1e-3);
+    parts.node_sets = key("clamp", "z &lt; 2.1e-3 &amp;&amp; x &lt; 0.01");
+    const auto block = [](const std::string& name) {
+      return section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.2e-3") +
+                               key("Separate Body", "true"));
+    };
+    parts.blocks = block("block_1");
+    parts.conditions = along("x", "Prescribed Displacement", "clamp", "x", "x*(cos(0.3*t) - 1) + z*sin(0.3*t)") +
+                       along("y", "Prescribed Displacement", "clamp", "y", "0") +
+                       along("z", "Prescribed Displacement", "clamp", "z", "-x*sin(0.3*t) + z*(cos(0.3*t) - 1)") +
+                       along("load", "Body Force", "block_1", "x", "3e9*t");
+    parts.watch = key("Beyond Limits", "Continue");  // of the balance: the steps are too long for the load
+    if (with_another) {
+      points += cubes(2, {0.02, 0, 0}, 3, 3, 8, 1e-3);
+      parts.node_sets += key("rest", "z &lt; 2.1e-3 &amp;&amp; x &gt; 0.01");
+      parts.blocks += block("block_2");
+      parts.conditions += along("at_rest", "Prescribed Displacement", "rest", "xyz", "0");
+    }
+    const Files files = files_of(parts, key("Number of Load Steps", "2") + key("Tolerance", "1e-9"), {}, {}, points);
+    EXPECT_EQ(files.error, "");
+    return files.history.at("External_Work").back();
+  };
+  const double alone = work(false);
+  EXPECT_GT(alone, 0);
+  EXPECT_NEAR(work(true), alone, 1e-5 * alone);  // what residual forces of 1e-9 of the loads may change
+}
+
 // A bar that hangs without hardening from its foot, under twice what it can carry.
 TEST(SlowLoading, LeavesTheLastEquilibriumWhereThereIsNoOther) {
   Parts parts;
