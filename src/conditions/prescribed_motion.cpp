@@ -14,7 +14,7 @@ double imposed_velocity(const PrescribedMotion& motion, int c, int i, const Velo
   const Body& body = update.body;
   const auto value = [&](double time) { return motion.value(body.domain.reference(i), time); };
   const double dt = update.steps.of(i);
-  if (motion.is_velocity) return value(update.t + 0.5 * dt);
+  if (motion.is_velocity) return update.steps.velocity_after(value, update.t, dt);
   const double target = body.domain.reference(i)[c] + update.steps.after(value, update.t, dt);
   return (target - body.domain.sites[i].current[c]) / dt;
 }

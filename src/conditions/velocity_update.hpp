@@ -29,6 +29,16 @@ struct PointTimeSteps {
     const double next = value(t + dt);
     return none_follows && next == value(t + 2 * dt) ? 2 * value(t) - value(t - dt) : next;
   }
+  // The velocity over dt (s) from t of a motion that has the velocity `value` at a time. At the final time one that
+  // ends there goes on as before, too, also where its value has jumped by then.
+  template <class Velocity>
+  double velocity_after(const Velocity& value, double t, double dt) const {
+    const double next = value(t + 0.5 * dt);
+    if (!none_follows || next != value(t + 1.5 * dt)) return next;
+    const double now = value(t), before = value(t - 0.5 * dt);
+    const bool has_jumped = std::abs(now - before) > 2 * std::abs(before - value(t - dt));
+    return has_jumped ? before : 2 * now - before;
+  }
 };
 
 // The changes of velocities by all conditions at the time t, and a record of them: reactions are added up at once, work

@@ -90,6 +90,7 @@ std::string balance_of(const Ledger& ledger, const Body& body) {
     return "energies are too large for a number. Likely causes: a load, a speed or a density far too large";
   }
   const double change = largest_volume_change(body);
+  const bool expands = body.domain.communicator.any(!body.expansion.empty());  // a rank may have no points
   std::ostringstream text;
   text << "the balance of energy has an error of " << 100 * ledger.balance_error << " % of the largest energy, "
        << std::abs(ledger.gained) << " J "
@@ -97,7 +98,7 @@ std::string balance_of(const Ledger& ledger, const Body& body) {
        << " is too coarse in time (Watch > Balance Error). Likely causes: a Fixed dt above the critical time step, a "
           "load too sudden, too few load steps, contact or a tool with a Mass that meets points with substeps "
           "(Subcycling)"
-       << (!body.expansion.empty()
+       << (expands
                ? ", thermal expansion of a law without an energy of its own, whose balance errs by some part of the "
                  "thermal strain"
                : "");

@@ -145,11 +145,11 @@ bool is_initial_displacement(const deck::Condition& condition) {
 }
 
 // Checks the explicit steps after equilibria: their errors and warnings come before equilibria, which may take hours.
+// Adds their non-reflecting ends to `ends`.
 std::string look_at_next_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
-                               deck::Problems& problems) {
+                               Conditions& ends, deck::Problems& problems) {
   deck::Deck next = deck;
   next.solver = *deck.next_solver;
-  Conditions ends;
   for (std::size_t c = 0; c < points.size(); ++c) {
     const auto look = [&]<class Type>(const Type& prototype) {
       check_values(prototype.values_at_points(), points[c], next.solver.initial_time, body.domain);
@@ -267,9 +267,13 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
   raise_together(communicator, problems.text(deck.file.string()));
   if (displaces && mesh_time == deck.solver.initial_time) set_reaches_from_here(mesh_time, scene);
   check_open_ends(deck, scene.conditions, scene.body, problems);
-  if (deck.next_solver) scene.warnings += look_at_next_steps(deck, points, scene.body, problems);
+  Conditions ends;
+  if (deck.next_solver) scene.warnings += look_at_next_steps(deck, points, scene.body, ends, problems);
   raise_together(communicator, problems.text(deck.file.string()));
-  take_off_what_is_beyond_ends(scene.conditions, scene.body);
+  // Equilibria before the steps have the same loads. For steps after equilibria it is done.
+  if (mesh_time == deck.solver.initial_time) {
+    take_off_what_is_beyond_ends(deck.next_solver ? ends : scene.conditions, scene.body);
+  }
 }
 
 void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::function<bool(int)>& knows_reaches,

@@ -30,27 +30,29 @@ constexpr double few = 4;
 // whose terms cancel; and largest by round-off: beyond it the body was handed over strained.
 constexpr double usual_cancelled = 200, most_cancelled = 1e4;
 
-// Root of the sum of squares over all points, N: positions have the error ε |X|, forces ω² m times that.
-double round_off_of_places(const Body& body) {
-  double sum = 0;
+// Root of the sum of squares over the points of each part, N: positions have the error ε |X|, forces ω² m times that.
+std::vector<double> round_off_of_places(const Body& body, const SeparateParts& parts) {
+  std::vector<double> sums(parts.count(), 0);
   for (const MaterialBlock& block : body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const int i = block.points[k];
       const double omega = frequency_bound(body, block, static_cast<int>(k));
-      sum += std::pow(omega * omega * body.mass(i) * body.domain.reference(i).cwiseAbs().maxCoeff(), 2);
+      sums[parts.of(i)] += std::pow(omega * omega * body.mass(i) * body.domain.reference(i).cwiseAbs().maxCoeff(), 2);
     }
   }
-  return std::numeric_limits<double>::epsilon() * std::sqrt(body.domain.communicator.sum(sum));
+  body.domain.communicator.sum(sums);
+  for (double& sum : sums) sum = std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+  return sums;
 }
 
-// Root of the sum of squares over all points, N: the forces that are left in a body at rest.
-double forces_at_rest(Body& body) {
+// Root of the sum of squares over the points of each part, N: the forces that are left in a body at rest.
+std::vector<double> forces_at_rest(Body& body, const SeparateParts& parts) {
   const std::vector<HeatedPoints> heated = std::exchange(body.heated, {});  // at one temperature
   advance_by_any_step(body, 1, 0, false);  // any length: laws in rate form see nothing in a step of no length
   body.heated = heated;
-  double sum = 0;
-  for (int i = 0; i < body.owned(); ++i) sum += (body.domain.volume(i) * body.force_density[i]).squaredNorm();
-  return std::sqrt(body.domain.communicator.sum(sum));
+  Field forces(body.owned());
+  for (int i = 0; i < body.owned(); ++i) forces[i] = body.domain.volume(i) * body.force_density[i];
+  return parts.norms(forces, body.domain.communicator);
 }
 
 // N². Forces through periodic sides count as loads that are spread over all points. Fewer points bear them, so this is
@@ -64,14 +66,17 @@ double square_of_side_forces(const Body& body, std::vector<Vector> forces) {
   return sum / static_cast<double>(ranks.sum(static_cast<std::int64_t>(body.owned())));
 }
 
-// Points with the forces by which conditions hold them, from all that act on them.
-std::vector<HeldPoint> held_points(const Body& body, const Constraints& constraints, const Committed& start,
-                                   const Field& before, const Field& after) {
-  std::vector<HeldPoint> points;
+// For each body, points with the forces by which conditions hold them, from all that act on them. Bodies turn each by
+// itself.
+std::vector<std::vector<HeldPoint>> held_points(const Body& body, const Constraints& constraints,
+                                                const Committed& start, const Field& before, const Field& after) {
+  int bodies = 0;
+  for (const BlockHorizons& block : body.domain.blocks) bodies = std::max(bodies, block.body + 1);
+  std::vector<std::vector<HeldPoint>> points(bodies);
   for (int i = 0; i < body.owned(); ++i) {
     const Tensor held = Tensor::Identity() - constraints.free_projection(i);
     if (held.squaredNorm() < 0.5) continue;  // 1, 2 or 3 where it is held
-    points.push_back({start.place(i), body.current(i), -held * before[i], -held * after[i]});
+    points[body.domain.body_of(i)].push_back({start.place(i), body.current(i), -held * before[i], -held * after[i]});
   }
   return points;
 }
@@ -81,12 +86,15 @@ void put_back(const Field& force_density, Body& body) { std::ranges::copy(force_
 
 }  // namespace
 
-Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact contact, std::optional<Fracture> fracture)
+Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact contact, std::optional<Fracture> fracture,
+                         const Tolerance& tolerance)
     : body_(body),
       conditions_(std::move(conditions)),
       contact_(std::move(contact)),
       fracture_(std::move(fracture)),
-      tools_(tools_of(conditions_), body),
+      tolerance_(tolerance),
+      parts_(body.domain, contact_),
+      tools_(tools_of(conditions_), body, parts_),
       committed_(body) {
   check_equilibria_possible(conditions_);
   breaks_ = may_break();
@@ -96,10 +104,15 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
   mirror_forces_before_.assign(side_count(body.domain), Vector::Zero());
   inner_ = outer_ = outer_before_ = forces_before_ = residual_;
   directions_ = body.domain.sites;
-  const double of_places = round_off_of_places(body);
+  last_scale_.assign(parts_.count(), 0);
+  largest_scale_ = expansion_scale_ = last_scale_;
+  const std::vector<double> of_places = round_off_of_places(body, parts_);
   const Field of_body = body.force_density;  // of a run that goes on
-  const double of_rest = std::max(forces_at_rest(body), of_places);
-  round_off_ = few * (of_rest > most_cancelled * of_places ? usual_cancelled * of_places : of_rest);
+  round_off_ = forces_at_rest(body, parts_);
+  for (std::size_t p = 0; p < round_off_.size(); ++p) {
+    const double of_rest = std::max(round_off_[p], of_places[p]);
+    round_off_[p] = few * (of_rest > most_cancelled * of_places[p] ? usual_cancelled * of_places[p] : of_rest);
+  }
   put_back(of_body, body);
   committed_.restore(body);
   looked_at_.resize(body.owned());
@@ -113,23 +126,24 @@ void Equilibrium::begin(double t, double dt) {
   constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
   tools_.begin(body_, t, dt);
   if (fracture_) fracture_->start_criteria(body_);
-  expansion_scale_ = body_.heated.empty() ? 0 : force_of_expansion();
+  if (body_.heated.empty()) {
+    std::ranges::fill(expansion_scale_, 0);
+  } else {
+    expansion_scale_ = forces_of_expansion();
+  }
   check_values();
 }
 
-// Root of the sum of squares over all points, N, of the forces by the thermal expansion of this step with points at
-// rest. A free body has no other forces.
-double Equilibrium::force_of_expansion() {
+// Root of the sum of squares over the points of each part, N: by the expansion of this step while the points stay. A
+// free body has no other forces.
+std::vector<double> Equilibrium::forces_of_expansion() {
   advance(0, t_, false);
-  const std::vector<Vector> before = body_.force_density;
+  Field forces = body_.force_density;
   committed_.restore_materials(body_);
   advance(dt_, t_ + dt_, false);
-  double sum = 0;
-  for (int i = 0; i < body_.owned(); ++i) {
-    sum += (body_.domain.volume(i) * (body_.force_density[i] - before[i])).squaredNorm();
-  }
+  for (int i = 0; i < body_.owned(); ++i) forces[i] = body_.domain.volume(i) * (body_.force_density[i] - forces[i]);
   committed_.restore_materials(body_);
-  return std::sqrt(body_.domain.communicator.sum(sum));
+  return parts_.norms(forces, body_.domain.communicator);
 }
 
 void Equilibrium::stretch_sides(double t) { body_.domain.halo.set_stretch(stretch_at(body_.domain.periods, t)); }
@@ -184,7 +198,10 @@ void Equilibrium::add_contact() {
 }
 
 void Equilibrium::begin_strained(double t) {
-  round_off_ = std::min(round_off_, few * usual_cancelled * round_off_of_places(body_));  // however little is strained
+  const std::vector<double> of_places = round_off_of_places(body_, parts_);
+  for (std::size_t p = 0; p < round_off_.size(); ++p) {
+    round_off_[p] = std::min(round_off_[p], few * usual_cancelled * of_places[p]);  // however little is strained
+  }
   for (MaterialBlock& block : body_.blocks) block.in_rigid_motion = false;  // equilibria look at every body
   advance(0, t, true);
   mirror_forces_before_ = mirror_forces(body_);
@@ -218,37 +235,70 @@ std::vector<Vector> Equilibrium::step_way() const {
 double Equilibrium::friction_work() const { return contact_.any() ? contact_.friction_work_of_trial(step_way()) : 0; }
 
 // Upper bound by Σ f·u ≤ ‖f‖ ‖u‖. A free body that expands has no forces but those that the search has left.
-double Equilibrium::work_of_errors(double tolerance) const {
+double Equilibrium::work_of_errors() const {
+  const std::vector<double> ways = parts_.norms(step_way(), body_.domain.communicator);
   double sum = 0;
-  for (const Vector& way : step_way()) sum += way.squaredNorm();
-  return (round_off_ + tolerance * expansion_scale_) * std::sqrt(body_.domain.communicator.sum(sum));
+  for (std::size_t p = 0; p < ways.size(); ++p) {
+    sum += (round_off_[p] + tolerance_.relative * expansion_scale_[p]) * ways[p];
+  }
+  return sum;
 }
 
 // The reactions balance the forces in held directions.
 Imbalance Equilibrium::measure(bool failed) {
   Field of_tools(body_.owned(), Vector::Zero());
   tools_.add_forces(body_, of_tools);
-  double sums[] = {0, 0, failed ? 1.0 : 0.0};
+  const std::size_t parts = parts_.count();
+  std::vector<double> sums(2 * parts + 1, 0);  // of residuals and scales of the parts, then of failures
+  sums.back() = failed ? 1 : 0;
   for (int i = 0; i < body_.owned(); ++i) {
     forces_[i] += of_tools[i];
     residual_[i] = constraints_->free_projection(i) * forces_[i];
     outer_[i] -= forces_[i] - residual_[i];
-    sums[0] += residual_[i].squaredNorm();
-    sums[1] += (outer_[i] + of_tools[i]).squaredNorm();
+    sums[parts_.of(i)] += residual_[i].squaredNorm();
+    sums[parts + parts_.of(i)] += (outer_[i] + of_tools[i]).squaredNorm();
   }
   body_.domain.communicator.sum(sums);
   const double of_sides = square_of_side_forces(body_, mirror_forces_);
-  Imbalance now{std::sqrt(sums[0]), std::sqrt(sums[1] + of_sides + expansion_scale_ * expansion_scale_), round_off_,
-                sums[2] > 0};
-  if (!std::isfinite(now.norm + now.scale)) now.failed = true;
-  last_scale_ = now.scale;
-  now.scale = std::max(now.scale, smallest_scale * largest_scale_);
-  return now;
+  std::vector<Imbalance> all;
+  for (std::size_t p = 0; p < parts; ++p) {
+    const double of_expansion = expansion_scale_[p] * expansion_scale_[p];
+    Imbalance now{std::sqrt(sums[p]), std::sqrt(sums[parts + p] + of_sides + of_expansion), round_off_[p],
+                  sums.back() > 0};
+    if (!std::isfinite(now.norm + now.scale)) now.failed = true;
+    last_scale_[p] = now.scale;
+    now.scale = std::max(now.scale, smallest_scale * largest_scale_[p]);
+    all.push_back(now);
+  }
+  return worst_of(all);
+}
+
+// Parts that are balanced wait for the others, without forces: their round-off may be more than the forces of those.
+Imbalance Equilibrium::worst_of(const std::vector<Imbalance>& of_parts) {
+  const auto rating = [&](const Imbalance& one) {
+    if (one.failed) return HUGE_VAL;
+    const double allowed = std::max(tolerance_.relative * one.scale, one.round_off);
+    return one.norm > 0 ? std::min(one.norm / allowed, std::numeric_limits<double>::max()) : 0;
+  };
+  const auto by_rating = [&](const Imbalance& a, const Imbalance& b) { return rating(a) < rating(b); };
+  const Imbalance worst = *std::ranges::max_element(of_parts, by_rating);
+  if (of_parts.size() == 1 || worst.failed || is_balanced(worst, tolerance_)) return worst;
+  double squares[3] = {};
+  for (const Imbalance& one : of_parts) {
+    if (is_balanced(one, tolerance_)) continue;
+    squares[0] += one.norm * one.norm, squares[1] += one.scale * one.scale, squares[2] += one.round_off * one.round_off;
+  }
+  for (int i = 0; i < body_.owned(); ++i) {
+    if (is_balanced(of_parts[parts_.of(i)], tolerance_)) residual_[i].setZero();
+  }
+  return {std::sqrt(squares[0]), std::sqrt(squares[1]), std::sqrt(squares[2])};
 }
 
 bool Equilibrium::needs_round() const {
   const Communicator& ranks = body_.domain.communicator;
-  return ranks.max(tools_.violation(ranks.max(tools_.largest_pressure()))) > 1;
+  std::vector<double> pressures = tools_.largest_pressures(parts_.count());
+  ranks.max(pressures);
+  return ranks.max(tools_.violation(pressures)) > 1;
 }
 
 bool Equilibrium::contact_has_changed() { return body_.domain.communicator.any(tools_.has_changed()); }
@@ -270,7 +320,9 @@ void Equilibrium::apply(const Field& field, Field& result) {
 }
 
 void Equilibrium::commit() {
-  largest_scale_ = std::max(largest_scale_, last_scale_);
+  for (std::size_t p = 0; p < largest_scale_.size(); ++p) {
+    largest_scale_[p] = std::max(largest_scale_[p], last_scale_[p]);
+  }
   contact_.commit();
   tools_.commit();
   outer_before_ = outer_;
@@ -384,8 +436,11 @@ void Equilibrium::serialize_search(Archive& archive) {
   serialize_mirror_forces(archive, mirror_forces_);
   archive.number("step_begin", t_);
   archive.number("step_length", dt_);
-  archive.number("largest_scale", largest_scale_);
-  archive.number("round_off", round_off_);  // of where the run began, not of the mesh
+  for (std::size_t p = 0; p < largest_scale_.size(); ++p) {
+    const std::string part = p == 0 ? "" : "_" + std::to_string(p);
+    archive.number("largest_scale" + part, largest_scale_[p]);
+    archive.number("round_off" + part, round_off_[p]);  // of where the run began, not of the mesh
+  }
   const contact::Kinematics kinematics{body_.domain, body_.velocity, body_.density};
   contact_.serialize(archive, kinematics, 0);
   tools_.serialize(archive, body_);
@@ -400,8 +455,9 @@ void Equilibrium::serialize_search(Archive& archive) {
 
 double Equilibrium::external_work() const {
   double sum = period_work(body_.domain, mirror_forces_before_, mirror_forces_, t_, dt_);
-  const std::vector<HeldPoint> held = held_points(body_, *constraints_, committed_, forces_before_, forces_);
-  sum += work_beyond_chords(held, body_.domain.communicator);
+  for (const auto& held : held_points(body_, *constraints_, committed_, forces_before_, forces_)) {
+    sum += work_beyond_chords(held, body_.domain.communicator);
+  }
   for (int i = 0; i < body_.owned(); ++i) {
     sum += 0.5 * (outer_before_[i] + outer_[i]).dot(body_.current(i) - committed_.place(i));
   }

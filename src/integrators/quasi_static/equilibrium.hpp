@@ -2,6 +2,7 @@
 // result of a step is stored in a committed state; trials start from there and leave nothing behind.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -9,13 +10,15 @@
 #include "contact/contact.hpp"
 #include "fracture/fracture.hpp"
 #include "integrators/quasi_static/constraints.hpp"
+#include "integrators/quasi_static/separate_parts.hpp"
 #include "integrators/quasi_static/tool_contact.hpp"
 #include "mechanics/formulation/tangent.hpp"
 #include "mechanics/mechanics.hpp"
 
 namespace strut {
 
-// The imbalance of the forces of a trial, the same on all ranks.
+// The imbalance of the forces of a trial, the same on all ranks: of all separate parts that are not balanced, or else
+// of the one that is balanced worst.
 struct Imbalance {
   double norm = 0;       // N, root of the sum of squares of the forces in free directions
   double scale = 0;      // N, the same for reactions, loads, expansion and contact: `norm` is compared with it
@@ -31,10 +34,20 @@ struct GaveWay {
   bool any() const { return bonds > 0 || cells; }
 };
 
+struct Tolerance {
+  double relative = 1e-6;    // residual forces over reactions, loads and contact
+  int most_iterations = 20;  // of Newton
+};
+
+inline bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {
+  return !now.failed && now.norm <= std::max(tolerance.relative * now.scale, now.round_off);
+}
+
 class Equilibrium {
  public:
   // Collective. Computes the forces of the undeformed state. Throws Error if a condition needs inertia.
-  Equilibrium(Body& body, Conditions conditions, contact::Contact contact, std::optional<Fracture> fracture = {});
+  Equilibrium(Body& body, Conditions conditions, contact::Contact contact, std::optional<Fracture> fracture = {},
+              const Tolerance& tolerance = {});
 
   // Collective. For a body that begins strained, at the time t (s): the forces that would hold it in this state fade
   // over the first load step, and their work counts as that of loads.
@@ -58,7 +71,8 @@ class Equilibrium {
 
   // Collective. Evaluates the forces at the present positions of body().domain.sites.
   Imbalance evaluate(bool with_diagnostics = false);
-  const Field& residual() const { return residual_; }  // N, forces of the last trial in free directions
+  // N, forces of the last trial in free directions; none in parts that are balanced and wait for others.
+  const Field& residual() const { return residual_; }
   // Collective. A sentence with point, block and position where the last trial failed, or has the largest residual.
   std::string weakest_point() const;
 
@@ -85,6 +99,7 @@ class Equilibrium {
   void go_back();  // collective; to the committed state
 
   Body& body() { return body_; }
+  const SeparateParts& parts() const { return parts_; }
   const Constraints& constraints() const { return *constraints_; }
   Vector start(int i) const { return committed_.place(i); }
   const contact::Contact& contact() const { return contact_; }
@@ -97,8 +112,8 @@ class Equilibrium {
   double tool_work() const { return tools_.work(body_); }
   double friction_work() const;  // between bodies
   // Collective. Upper bound of the work of errors in this load step, J: of forces by round-off, and of the residual
-  // forces that a search with this tolerance leaves in a body that expands.
-  double work_of_errors(double tolerance) const;
+  // forces that a search leaves in a body that expands.
+  double work_of_errors() const;
   // Collective. Reactions of the last trial for this number of conditions of the deck, N.
   Reactions reactions(int conditions) const;
 
@@ -111,9 +126,10 @@ class Equilibrium {
   bool may_break() const;
   void swap_strengths();
   void check_values();
-  double force_of_expansion();
+  std::vector<double> forces_of_expansion();
   void add_contact();
   Imbalance measure(bool failed);
+  Imbalance worst_of(const std::vector<Imbalance>& of_parts);
   void begin_flow_of_cells();
   void hold_at(double t);
   void stretch_sides(double t);
@@ -122,12 +138,15 @@ class Equilibrium {
   Conditions conditions_;
   contact::Contact contact_;
   std::optional<Fracture> fracture_;  // in trials no bond breaks, but springs lose stiffness with points that fail
+  Tolerance tolerance_;
+  SeparateParts parts_;
   ToolContact tools_;
   bool breaks_ = false;            // bonds break, and cells soften, between trials
   std::vector<double> strengths_;  // of gradual cracks by blocks, Pa; infinite in trials, which hold their damage
   Committed committed_;
   std::optional<Constraints> constraints_;
-  double t_ = 0, dt_ = 0, round_off_ = 0, last_scale_ = 0, largest_scale_ = 0, expansion_scale_ = 0;
+  double t_ = 0, dt_ = 0;
+  std::vector<double> round_off_, last_scale_, largest_scale_, expansion_scale_;  // of parts, N
   std::optional<Failure> failure_;
   Field forces_, residual_;                     // N: all; those in free directions
   Field inner_;                                 // N, of the body alone

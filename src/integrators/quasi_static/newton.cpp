@@ -153,6 +153,12 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
     held.remove(out);
     for (std::size_t i = 0; i < in.size(); ++i) out[i] += spring_ * (in[i] - free[i]);
   };
+  // Forces of different size are solved for alike: no stiffness couples the parts, so each has its own unit.
+  const SeparateParts& parts = equilibrium_.parts();
+  std::vector<double> units(parts.count(), 1);
+  if (parts.count() > 1) units = parts.norms(right, equilibrium_.body().domain.communicator);
+  for (double& unit : units) unit = unit > 0 ? unit : 1;
+  for (std::size_t i = 0; i < right.size(); ++i) right[i] /= units[parts.of(static_cast<int>(i))];
   const int most = damping_ > 0 ? most_products_damped : most_products;
   const Krylov::Outcome outcome = with_another_preconditioner([&] {
     static Teuchos::Time& timer = phase("Linear solver");
@@ -162,7 +168,7 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
   });
   if (!outcome.converged) damp_more(where_unstable);
   held.remove(step);
-  for (std::size_t i = 0; i < step.size(); ++i) step[i] += way[i];
+  for (std::size_t i = 0; i < step.size(); ++i) step[i] = units[parts.of(static_cast<int>(i))] * step[i] + way[i];
   if (products_when_new_ == 0) products_when_new_ = std::max(10, outcome.iterations);
   preconditioner_due_ = outcome.iterations > wear * (is_factorized_ ? factor_->products_worth() : products_when_new_);
   return outcome.iterations;

@@ -38,7 +38,7 @@ constexpr double newton_bytes = 17e3;
 QuasiStatic::QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
                          double initial_time, double final_time, Observer observer, std::optional<Fracture> fracture)
     : observer_(std::move(observer)),
-      equilibrium_(body, std::move(conditions), std::move(contact), std::move(fracture)),
+      equilibrium_(body, std::move(conditions), std::move(contact), std::move(fracture), control.tolerance),
       newton_(equilibrium_, observer_),
       relaxation_(equilibrium_, observer_),
       control_(control),
@@ -179,7 +179,7 @@ void QuasiStatic::take_work() {
   external_ += ranks.sum(equilibrium_.external_work());
   by_tools_ += ranks.sum(equilibrium_.tool_work());
   by_friction_ += ranks.sum(equilibrium_.friction_work());
-  largest_energy_ += above_errors * equilibrium_.work_of_errors(control_.tolerance.relative);
+  largest_energy_ += above_errors * equilibrium_.work_of_errors();
 }
 
 void QuasiStatic::commit(EquilibriumSearch search) {

@@ -1,18 +1,12 @@
 // Input and result of the methods that find an equilibrium.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <string>
 
 #include "integrators/quasi_static/equilibrium.hpp"
 
 namespace strut {
-
-struct Tolerance {
-  double relative = 1e-6;    // residual forces over reactions, loads and contact
-  int most_iterations = 20;  // of Newton
-};
 
 // Callbacks of an equilibrium search.
 struct Observer {
@@ -29,9 +23,5 @@ struct EquilibriumSearch {
   bool interrupted = false;
   int rounds = 1;  // of the multipliers of tools
 };
-
-inline bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {
-  return !now.failed && now.norm <= std::max(tolerance.relative * now.scale, now.round_off);
-}
 
 }  // namespace strut

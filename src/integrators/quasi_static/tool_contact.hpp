@@ -11,12 +11,13 @@
 #include "base/archive.hpp"
 #include "conditions/rigid_tool.hpp"
 #include "integrators/quasi_static/krylov.hpp"
+#include "integrators/quasi_static/separate_parts.hpp"
 
 namespace strut {
 
 class ToolContact {
  public:
-  ToolContact(std::vector<RigidTool> tools, const Body& body);
+  ToolContact(std::vector<RigidTool> tools, const Body& body, const SeparateParts& parts);
 
   bool any() const { return !tools_.empty(); }
 
@@ -29,10 +30,10 @@ class ToolContact {
   void add_stiffness(const Field& field, Field& result) const;
   void add_springs(std::vector<Tensor>& springs) const;
 
-  double largest_pressure() const;  // N, of the last forces on this rank's points
+  std::vector<double> largest_pressures(int parts) const;  // N, of the last forces on this rank's points of each part
   // Error of contact at the last forces on this rank's points, over the allowed one: above 1 another round of the
-  // multipliers is needed. `largest_pressure`: over all ranks, N.
-  double violation(double largest_pressure) const;
+  // multipliers is needed. `largest_pressures`: over all ranks, N.
+  double violation(const std::vector<double>& largest_pressures) const;
   // True if other points of this rank touch than at the last call.
   bool has_changed();
   void augment();  // λ ← t
@@ -54,7 +55,7 @@ class ToolContact {
     Vector drag = Vector::Zero(), force = Vector::Zero();  // t_t, t_n n + t_t; N
   };
   struct ContactPoint {  // of a tool on a point
-    int tool, point;
+    int tool, point, part;
     double penalty = 0;                  // ε, N/m
     double spacing = 0;                  // m
     double multiplier = 0;               // λ_n, N

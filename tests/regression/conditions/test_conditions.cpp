@@ -74,6 +74,28 @@ TEST(Condition, TableThatEndsAtTheFinalTimeDoesNotStopTheMotion) {
   }
 }
 
+// The same of a velocity, whether its value has fallen at the final time, falls after it, or stays as a table's last
+// row.
+TEST(Condition, VelocityThatEndsAtTheFinalTimeDoesNotStopTheMotion) {
+  const auto end_of = [](const std::string& value) {
+    const RunFolder folder;
+    Parts parts;
+    parts.conditions = along("hold", "Prescribed Displacement", "foot", "z", "0") +
+                       along("push", "Prescribed Velocity", "top", "z", value);
+    Simulation run(folder, parts);
+    return run.go();
+  };
+  const auto expect_to_go_on = [&](const std::string& value, const std::string& forever) {
+    const Ledger ends = end_of(value), goes_on = end_of(forever);
+    EXPECT_NEAR(ends.kinetic / goes_on.kinetic, 1, 1e-9) << value;  // round-off of a table's value
+    EXPECT_NEAR(ends.external / goes_on.external, 1, 1e-9) << value;
+  };
+  expect_to_go_on("value = 0; if (t &lt; 5e-6) { value = -20; }", "-20");
+  expect_to_go_on("value = 0; if (t &lt;= 5e-6) { value = -20; }", "-20");
+  expect_to_go_on("table(t, 0, 0, 5e-6, -20)", "-4e6*t");
+  EXPECT_LT(end_of("value = 0; if (t &lt; 4e-6) { value = -20; }").kinetic, 0.9 * end_of("-20").kinetic);
+}
+
 TEST(Condition, PrescribedVelocityIsFollowed) {
   const RunFolder folder;
   Parts parts;

@@ -21,8 +21,9 @@ std::string switched_on(const std::vector<std::string>& names) {
 
 // Loads run from t = 0 to 1, each step to both files.
 Files files_of(Parts parts, const std::string& quasi_static, const std::vector<std::string>& reactions,
-               const Lattice& lattice = {}) {
+               const Lattice& lattice = {}, const std::string& points = "") {
   const RunFolder folder(lattice);
+  folder.write("points.txt", points);
   parts.times = key("Final Time", "1");
   parts.verlet = quasi_static;
   parts.output = key("Output Filename", (folder / "result.e").string()) + key("Output Frequency", "1") +
@@ -251,6 +252,91 @@ TEST(SlowLoading, WaitsForWhatActs) {
   parts.materials = laws[0];
   parts.conditions += actions[0];
   expect_rest(parts, key("Method", "Dynamic Relaxation"));
+}
+
+// A soft block, pulled or pressed by a plane with some 0.1 N, has the force that it has alone beside one that bears
+// 40 kN, and one that bears nothing: they do not touch it, and their forces are no measure for its own.
+TEST(SlowLoading, EachBodyIsInEquilibriumByItsOwnForces) {
+  const auto held = [](const std::string& body, const std::string& end, const std::string& to) {
+    const std::string set = body + end;
+    return along(set + "_x", "Prescribed Displacement", set, "x", "0") +
+           along(set + "_y", "Prescribed Displacement", set, "y", "0") +
+           along(set, "Prescribed Displacement", set, "z", to);
+  };
+  const auto block = [](const std::string& name, const std::string& material) {
+    return section(name, key("Block Names", name) + key("Material", material) + key("Horizon", "2.2e-3") +
+                             key("Separate Body", "true"));
+  };
+  const auto metal = [](const std::string& name, const std::string& more) {
+    return section(name, key("Density", "50") + key("Poisson's Ratio", "0.3") + more);
+  };
+  const auto ends = [](const std::string& body, const std::string& where) {
+    return key(body + "_low", "z &lt; 1.1e-3 &amp;&amp; " + where) +
+           key(body + "_high", "z &gt; 6.9e-3 &amp;&amp; " + where);
+  };
+  const auto force_with = [&](const std::string& act, bool with_others) {
+    Parts parts;
+    parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+    std::string points = cubes(1, {0, 0, 0}, 4, 4, 8, 1e-3);
+    parts.node_sets = ends("soft", "x &lt; 0.01");
+    parts.materials = metal("rubber", key("Material Model", "Elastic Plastic Correspondence") +
+                                          key("Young's Modulus", "1e6") + key("Yield Stress", "1e4"));
+    parts.blocks = block("block_1", "rubber");
+    parts.conditions = held("soft", "_low", "0") + act;
+    if (with_others) {
+      points += cubes(2, {0.02, 0, 0}, 4, 4, 8, 1e-3) + cubes(3, {0.04, 0, 0}, 4, 4, 8, 1e-3);
+      parts.node_sets += ends("stiff", "x &gt; 0.01 &amp;&amp; x &lt; 0.03") + ends("idle", "x &gt; 0.03");
+      parts.materials +=
+          metal("steel", key("Material Model", "Elastic Correspondence") + key("Young's Modulus", "2e11"));
+      parts.blocks += block("block_2", "steel") + block("block_3", "rubber");
+      parts.conditions += held("stiff", "_low", "0") + held("stiff", "_high", "-1e-4*t") + held("idle", "_low", "0");
+    }
+    const Files files = files_of(parts, key("Number of Load Steps", "2"), {"Reaction_Z(soft_low)"}, {}, points);
+    EXPECT_EQ(files.error, "");
+    return files.history.at("Reaction_Z(soft_low)").back();
+  };
+  const std::string pulled = along("act", "Prescribed Displacement", "soft_high", "z", "-4e-4*t");
+  const std::string pressed =
+      section("act", key("Type", "Rigid Plane") + key("Node Set", "block_1") + key("Point", "0 0 8e-3") +
+                         key("Normal", "0 0 -1") + key("Travel Z", "-4e-4*t"));
+  for (const std::string& act : {pulled, pressed}) {
+    const double alone = force_with(act, false);
+    EXPECT_GT(std::abs(alone), 0.05);
+    // Residual forces are 1e-6 of the reactions, and what the soft body yields to them may be some times that.
+    EXPECT_NEAR(force_with(act, true), alone, 1e-4 * std::abs(alone)) << act;
+  }
+}
+
+// A body that is turned at one end takes the same work beside one that rests in a clamp of its own.
+TEST(SlowLoading, EachBodyTurnsByItself) {
+  const auto work = [](bool with_another) {
+    Parts parts;
+    parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+    std::string points = cubes(1, {0, 0, 0}, 3, 3, 8, 1e-3);
+    parts.node_sets = key("clamp", "z &lt; 2.1e-3 &amp;&amp; x &lt; 0.01");
+    const auto block = [](const std::string& name) {
+      return section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.2e-3") +
+                               key("Separate Body", "true"));
+    };
+    parts.blocks = block("block_1");
+    parts.conditions = along("x", "Prescribed Displacement", "clamp", "x", "x*(cos(0.3*t) - 1) + z*sin(0.3*t)") +
+                       along("y", "Prescribed Displacement", "clamp", "y", "0") +
+                       along("z", "Prescribed Displacement", "clamp", "z", "-x*sin(0.3*t) + z*(cos(0.3*t) - 1)") +
+                       along("load", "Body Force", "block_1", "x", "3e9*t");
+    parts.watch = key("Beyond Limits", "Continue");  // of the balance: the steps are too long for the load
+    if (with_another) {
+      points += cubes(2, {0.02, 0, 0}, 3, 3, 8, 1e-3);
+      parts.node_sets += key("rest", "z &lt; 2.1e-3 &amp;&amp; x &gt; 0.01");
+      parts.blocks += block("block_2");
+      parts.conditions += along("at_rest", "Prescribed Displacement", "rest", "xyz", "0");
+    }
+    const Files files = files_of(parts, key("Number of Load Steps", "2") + key("Tolerance", "1e-9"), {}, {}, points);
+    EXPECT_EQ(files.error, "");
+    return files.history.at("External_Work").back();
+  };
+  const double alone = work(false);
+  EXPECT_GT(alone, 0);
+  EXPECT_NEAR(work(true), alone, 1e-5 * alone);  // what residual forces of 1e-9 of the loads may change
 }
 
 // A bar that hangs without hardening from its foot, under twice what it can carry.

@@ -191,6 +191,21 @@ TEST(Monitor, LawsThatGiveMoreThanTheyStoredAreTold) {
   EXPECT_EQ(told_of({0, 0, 0}, 1, 0, -0.011).lines.size(), 1u);
 }
 
+// The rank that tells may have no points, as the first of two has none here that expand.
+TEST(Monitor, ThermalExpansionIsACauseOnWhicheverRankItIs) {
+  const RunFolder folder;
+  Simulation run(folder, {});
+  if (run.world().rank() + 1 == run.world().size()) run.body().expansion.use(run.body().owned());
+  std::vector<std::string> lines;
+  const deck::Watch limits{.stops = true, .balance_error = 0.5};
+  Monitor monitor(limits, 1, run.body(), [&](const std::string& line) { lines.push_back(line); });
+  for (int n = 0; n < 10; ++n) monitor.check_energy({.kinetic = 1, .largest = 1}, false);
+  monitor.check_energy({.kinetic = 1, .gained = -0.02, .largest = 1, .balance_error = 0.02}, true);
+  if (run.world().rank() != 0) return;
+  ASSERT_EQ(lines.size(), 1u);
+  expect_words(lines[0], {"balance of energy", "thermal expansion"});
+}
+
 // A bar that nothing acts on holds energies of round-off, which balance by chance alone.
 TEST(Monitor, RoundOffIsNoErrorOfTheBalance) {
   const RunFolder folder;
