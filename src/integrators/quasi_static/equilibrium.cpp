@@ -70,9 +70,7 @@ double square_of_side_forces(const Body& body, std::vector<Vector> forces) {
 // itself.
 std::vector<std::vector<HeldPoint>> held_points(const Body& body, const Constraints& constraints,
                                                 const Committed& start, const Field& before, const Field& after) {
-  int bodies = 0;
-  for (const BlockHorizons& block : body.domain.blocks) bodies = std::max(bodies, block.body + 1);
-  std::vector<std::vector<HeldPoint>> points(bodies);
+  std::vector<std::vector<HeldPoint>> points(body.domain.body_count());
   for (int i = 0; i < body.owned(); ++i) {
     const Tensor held = Tensor::Identity() - constraints.free_projection(i);
     if (held.squaredNorm() < 0.5) continue;  // 1, 2 or 3 where it is held
