@@ -26,6 +26,10 @@ constexpr double smallest_scale = 1e-4;
 // Factor on the forces by round-off: a body that moves a little has larger ones than a body at rest.
 constexpr double few = 4;
 
+// Part of the largest excess over the strength that a round of softening leaves: cells soften one after another, else a
+// body under uniform tension would soften everywhere. Cells with less of their strength left have no part in it.
+constexpr double part_in_round = 0.5, nearly_open = 0.1;
+
 // Ratios of the forces of a body at rest to the forces by round-off of positions: usual with quadratic correspondence,
 // whose terms cancel; and largest by round-off: beyond it the body was handed over strained.
 constexpr double usual_cancelled = 200, most_cancelled = 1e4;
@@ -96,8 +100,11 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
       committed_(body) {
   check_equilibria_possible(conditions_);
   breaks_ = may_break();
-  strengths_.assign(body.blocks.size(), HUGE_VAL);
-  if (fracture_) swap_strengths();
+  for (const MaterialBlock& block : body.blocks) {
+    const auto* law = std::get_if<materials::Brittle>(&block.material.law);
+    strengths_.push_back(law ? law->strength : 0);
+  }
+  if (fracture_) set_strengths(HUGE_VAL);
   residual_.assign(body.owned(), Vector::Zero());
   mirror_forces_before_.assign(side_count(body.domain), Vector::Zero());
   inner_ = outer_ = outer_before_ = forces_before_ = residual_;
@@ -359,9 +366,9 @@ GaveWay Equilibrium::give_way() {
   const double spent = stored_energies(body_).fracture;
   fracture_->start_rest(body_);
   const Field inner = inner_, with_loads = body_.force_density;
-  swap_strengths();
+  set_strengths(1 + part_in_round * (largest_load() - 1));
   advance(dt_, t_ + dt_, true);
-  swap_strengths();
+  set_strengths(HUGE_VAL);
   const GaveWay gave{body_.domain.communicator.sum(broken_bonds(body_) - before) / 2,
                      stored_energies(body_).fracture > spent};
   if (!gave.any()) {
@@ -377,15 +384,31 @@ GaveWay Equilibrium::give_way() {
   return gave;
 }
 
-void Equilibrium::swap_strengths() {
+void Equilibrium::set_strengths(double factor) {
   for (std::size_t b = 0; b < strengths_.size(); ++b) {
-    auto* law = std::get_if<materials::Brittle>(&body_.blocks[b].material.law);
-    if (law) std::swap(law->strength, strengths_[b]);
+    if (auto* law = std::get_if<materials::Brittle>(&body_.blocks[b].material.law))
+      law->strength = factor * strengths_[b];
   }
 }
 
+double Equilibrium::largest_load() const {
+  double largest = 1;
+  for (std::size_t b = 0; breaks_ && b < strengths_.size(); ++b) {
+    const MaterialBlock& block = body_.blocks[b];
+    const auto* law = std::get_if<materials::Brittle>(&block.material.law);
+    for (std::size_t n = 0; law && n < 4 * block.points.size(); ++n) {
+      const std::size_t place = block.place(static_cast<int>(n / 4), static_cast<int>(n % 4));
+      const double left = 1 - block.state_of<materials::Brittle>(place).dissipated * law->width / law->fracture_energy;
+      if (left < nearly_open) continue;
+      const double most = materials::CockcroftLatham::largest_principal(block.cells[place].stress);
+      largest = std::max(largest, most / (strengths_[b] * left));
+    }
+  }
+  return body_.domain.communicator.max(largest);
+}
+
 std::optional<Fracture> Equilibrium::take_fracture() {
-  if (fracture_) swap_strengths();
+  if (fracture_) set_strengths(1);
   return std::move(fracture_);
 }
 

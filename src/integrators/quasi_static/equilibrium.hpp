@@ -63,6 +63,8 @@ class Equilibrium {
   GaveWay give_way();
   // Collective. The largest stretch of a bond over the one at which it breaks, in the last trial; 0 if none breaks.
   double largest_stretch() const { return breaks_ ? fracture_->largest_stretch(body_) : 0; }
+  // Collective. The largest stress of a cell that softens over the strength that it has left, in the last trial.
+  double largest_load() const;
   // J, of the last trial on this rank: work of the fading forces of broken bonds; not negative if the body is stable.
   double work_of_jump() const;
 
@@ -124,7 +126,7 @@ class Equilibrium {
     return advance_by_any_step(body_, dt, time, with_diagnostics, fracture_ ? &*fracture_ : nullptr);
   }
   bool may_break() const;
-  void swap_strengths();
+  void set_strengths(double factor);
   void check_values();
   std::vector<double> forces_of_expansion();
   void add_contact();
@@ -142,7 +144,7 @@ class Equilibrium {
   SeparateParts parts_;
   ToolContact tools_;
   bool breaks_ = false;            // bonds break, and cells soften, between trials
-  std::vector<double> strengths_;  // of gradual cracks by blocks, Pa; infinite in trials, which hold their damage
+  std::vector<double> strengths_;  // of gradual cracks by blocks, Pa; in trials laws have none, which holds the damage
   Committed committed_;
   std::optional<Constraints> constraints_;
   double t_ = 0, dt_ = 0;

@@ -21,9 +21,10 @@ constexpr int easily = 6;                // iterations of Newton per round up to
 constexpr double growth = 2;             // of the next step, at most
 constexpr double round_off = 1e-9;
 
-// A load step is shortened if it stretches a bond to more than this times its critical stretch, because the bond then
-// breaks with too much energy; but not below finest_break of the longest step: a crack may run in any step.
-constexpr double most_stretch = 1.02, finest_break = 1.0 / 16;
+// A load step is shortened if it stretches a bond to more than the first, times its critical stretch, or loads a cell to
+// more than the second, times its strength, because either then gives way with too much energy; but not below
+// finest_break of the longest step: a crack may run in any step.
+constexpr double most_stretch = 1.02, most_load = 1.1, finest_break = 1.0 / 16;
 
 // The balance error is relative to an energy of at least this multiple of the work of errors: a body that is only
 // carried along, or only expands, has no larger energy. Users get a warning from an error of 1 % on.
@@ -157,7 +158,10 @@ bool QuasiStatic::advance() {
   dt_ = std::min({dt_, longest_, final_time_ - time_});
   for (;;) {
     const EquilibriumSearch search = attempt();
-    if (search.converged && (equilibrium_.largest_stretch() <= most_stretch || dt_ <= finest_break * longest_)) {
+    const auto is_far_beyond = [this] {
+      return equilibrium_.largest_stretch() > most_stretch || equilibrium_.largest_load() > most_load;
+    };
+    if (search.converged && (dt_ <= finest_break * longest_ || !is_far_beyond())) {
       commit(search);
       return true;
     }

@@ -224,25 +224,23 @@ TEST_P(InAStrip, ACrackTakesItsEnergyAndTheRestIsElastic) {
   EXPECT_LT(end.elastic + end.stabilization, locked * turned.elastic);
 }
 
-// The stress of cells falls with the opening, in load steps over which the crack grows by several cells. Each opened
-// cell has taken its half of the energy. The crack stops with the load, and keeps its damage when it closes; some
-// percent of the energy stay locked in, since the stress of a cell does not follow its fit when it begins to soften.
-TEST(BreakingEquilibria, AGradualCrackTakesItsEnergyAndStops) {
+// A bar without a notch, torn within a few load steps, cracks at one end, where each opened cell takes its half of the
+// energy, and some of what the jump would lose; at the other end a crack begins. If all cells softened at once, the bar
+// would take some three times as much.
+TEST(BreakingEquilibria, AGradualCrackIsOneAndTakesItsEnergy) {
   if (Communicator().size() > 1) GTEST_SKIP() << "long";
-  Strip strip(cohesive, "1e-3*min(min(2.5*t, 1), 4 - 4*t)", {.load_steps = 10, .tolerance = {.relative = 1e-3}});
-  strip.go_to(0.4);
-  const Ledger turned = strip.solver->ledger();
-  const std::vector<double> opened = strip.opened_cells();
-  EXPECT_GE(strip.world.sum(static_cast<std::int64_t>(opened.size())), 6);
-  for (const double energy : opened) EXPECT_NEAR(energy / (0.5 * toughness * spacing * spacing), 1, 0.05);
-  EXPECT_LT(turned.jumps, 0.1 * turned.fracture);
-  strip.go_to(0.7);
-  EXPECT_NEAR(strip.solver->ledger().fracture / turned.fracture, 1, 1e-3);
+  Kind bar = cohesive;
+  bar.length = 4, bar.height = 12, bar.notch = 0, bar.held = 1, bar.far = 1000;
+  Strip strip(bar, "2e-5*t", {.load_steps = 3, .tolerance = {.relative = 2e-3}});
   strip.go_to(1);
+  const double whole = bar.length * spacing * spacing * toughness;
+  const std::vector<double> opened = strip.opened_cells();
+  EXPECT_EQ(opened.size(), 2 * bar.length);
+  for (const double energy : opened) EXPECT_NEAR(energy / (0.5 * whole / bar.length), 1, 0.15);
   const Ledger end = strip.solver->ledger();
-  EXPECT_NEAR(end.fracture / turned.fracture, 1, 1e-2);
-  EXPECT_LT(end.balance_error, 2e-3);
-  EXPECT_LT(end.elastic, 0.05 * turned.elastic);
+  EXPECT_NEAR(end.fracture / whole, 1.2, 0.2);
+  EXPECT_GT(end.jumps, 0);
+  EXPECT_LT(end.balance_error, 1e-3);
 }
 
 class Restored : public InAStrip {};
