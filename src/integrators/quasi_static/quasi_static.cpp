@@ -21,8 +21,8 @@ constexpr int easily = 6;                // iterations of Newton per round up to
 constexpr double growth = 2;             // of the next step, at most
 constexpr double round_off = 1e-9;
 
-// A load step is shortened if it stretches a bond to more than the first, times its critical stretch, or loads a cell to
-// more than the second, times its strength, because either then gives way with too much energy; but not below
+// A load step is shortened if it stretches a bond to more than the first, times its critical stretch, or loads a cell
+// to more than the second, times its strength, because either then gives way with too much energy; but not below
 // finest_break of the longest step: a crack may run in any step.
 constexpr double most_stretch = 1.02, most_load = 1.1, finest_break = 1.0 / 16;
 
