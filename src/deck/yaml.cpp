@@ -146,23 +146,93 @@ bool has_hidden_comment(std::string_view line) {
   return false;
 }
 
-// The first such line outside of texts of several lines (after "Value: |"); 0 without any.
-int line_with_hidden_comment(const std::string& text) {
-  std::istringstream lines(text);
-  int number = 0;
-  std::size_t indent_of_text = std::string::npos;  // of the key before it
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
+// Tells lines, one after the other, that belong to a text of several lines (after "Value: |") or are empty.
+class LinesOfTexts {
+ public:
+  bool have(const std::string& line) {
     const std::size_t begin = line.find_first_not_of(" \r");
-    if (begin == std::string::npos || (indent_of_text != std::string::npos && begin > indent_of_text)) continue;
-    if (has_hidden_comment(line)) return number;
+    if (begin == std::string::npos || (indent_ != std::string::npos && begin > indent_)) return true;
     const std::size_t mark = line.find_last_of("|>");
     const bool begins_text = mark != std::string::npos && mark > 1 && line[mark - 1] == ' ' &&
                              line.find_first_not_of("+-0123456789 \r", mark + 1) == std::string::npos &&
                              line[line.find_last_not_of(' ', mark - 1)] == ':';
-    indent_of_text = begins_text ? begin : std::string::npos;
+    indent_ = begins_text ? begin : std::string::npos;
+    return false;
+  }
+
+ private:
+  std::size_t indent_ = std::string::npos;  // of the key before the text
+};
+
+// The first line with a hidden comment outside of such texts; 0 without any.
+int line_with_hidden_comment(const std::string& text) {
+  std::istringstream lines(text);
+  LinesOfTexts texts;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (!texts.have(line) && has_hidden_comment(line)) return number;
   }
   return 0;
+}
+
+// Puts quotes around the plain value at `begin` if it has a '>' or '|'. Returns where it ends: before a comment, and
+// within braces before the next value.
+std::size_t quote_plain_value(std::string& line, std::size_t begin, bool in_braces) {
+  std::size_t end = std::min(line.find(" #", begin), line.size());
+  if (in_braces) end = std::min(end, line.find_first_of(",{}[]", begin));
+  const std::string value(trimmed(line.substr(begin, end - begin)));
+  const char quote = value.find_first_of("\"\\") == std::string::npos ? '"' : '\'';
+  const bool is_text = value.find(quote) == std::string::npos && value.find(": ") == std::string::npos;
+  if (!is_text || value.find_first_of(">|") == std::string::npos) return end;
+  line.replace(begin, value.size(), quote + value + quote);
+  return end + 2;
+}
+
+// Where the quote at `begin` closes; npos if not in this line.
+std::size_t closing_quote(const std::string& line, std::size_t begin) {
+  const char quote = line[begin];
+  for (std::size_t i = begin + 1; i < line.size(); ++i) {
+    if (line[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (line[i] == quote) {
+      if (quote == '"' || line[i + 1] != quote) return i;
+      ++i;  // '' stands for one
+    }
+  }
+  return std::string::npos;
+}
+
+// The same for all values of a line; `brackets`: that are open. False if a quote does not close in the line.
+bool quote_plain_values(std::string& line, int& brackets) {
+  char before = '-';  // the last character that is no blank
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '#') return true;
+    if ((c == '\'' || c == '"') && std::string_view(":,[{-").find(before) != std::string_view::npos) {
+      i = closing_quote(line, i);
+      if (i == std::string::npos) return false;
+    } else if (before == ':' && line[i - 1] == ' ' && std::string_view(" {}[],>|&*!%@`").find(c) == std::string::npos) {
+      i = quote_plain_value(line, i, brackets > 0) - 1;
+    }
+    brackets += (c == '{' || c == '[') - (c == '}' || c == ']');
+    if (c != ' ') before = line[i];
+  }
+  return true;
+}
+
+// Teuchos takes every '>' and '|' in a plain value ("z > 1") for the begin of a text of several lines, so these values
+// get quotes. Texts of several lines stay; with quotes over several lines, all does.
+std::string with_quotes(const std::string& text) {
+  std::istringstream lines(text);
+  LinesOfTexts texts;
+  std::string all;
+  int brackets = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!texts.have(line) && !quote_plain_values(line, brackets)) return text;
+    all += line + "\n";
+  }
+  return all;
 }
 
 // Teuchos and read_list recurse for each level.
@@ -191,11 +261,18 @@ std::optional<List> parse_yaml(const std::string& text, Problems& problems) {
     return std::nullopt;
   }
   const bool put_into_one = !has_one_outermost_key(text);
-  try {
-    const auto yaml = Teuchos::getParametersFromYamlString(put_into_one ? within_one_key(text) : text);
+  const auto read = [&](const std::string& whole) {
+    const auto yaml = Teuchos::getParametersFromYamlString(put_into_one ? within_one_key(whole) : whole);
     List deck = read_list(*yaml, "", problems);
     if (!put_into_one) deck.name = yaml->name();  // "Peridigm", say
     return deck;
+  };
+  try {
+    return read(text);
+  } catch (const std::exception&) {  // perhaps for want of quotes
+  }
+  try {
+    return read(with_quotes(text));
   } catch (const std::exception& error) {
     if (const int line = line_indented_by_tab(text)) {
       problems.add("line " + std::to_string(line), "indented by a tab; expected spaces, as YAML has them");

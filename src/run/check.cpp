@@ -96,6 +96,12 @@ deck::Deck set_up_next(const deck::Deck& deck, QuasiStatic& solver, Scene& scene
   return set_up_next(fitting, solver.conditions(), solver.take_contact(), solver.take_fracture(), scene);
 }
 
+// Its time, too: load steps are shorter than the deck has them where no equilibrium was found.
+std::string state_before_end(const QuasiStatic& solver, int made, double steps) {
+  return text_of("the first ", made, " of ", steps, " load steps, t = ", solver.time(),
+                 " s (the step may shrink with the deformation of the others; of the conditions only ends act)");
+}
+
 // Estimates from the first two load steps, or from the start of the first if it takes long.
 std::string check_equilibria(const deck::Deck& deck, Scene& scene, std::optional<StartState>& state) {
   constexpr double patience = 60;  // s
@@ -106,6 +112,7 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene, std::optional
                      deck.solver.initial_time, deck.solver.final_time, observer, std::move(scene.fracture));
   if (state) state->begin(solver);
   const double steps = scene.quasi_static->load_steps;
+  const int before = solver.steps();  // of another run
   const bool found = solver.advance();
   const double first = seconds_since(start);
   std::ostringstream text;
@@ -123,8 +130,11 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene, std::optional
   }
   text << "estimated time " << range(steps * std::min(first, second), most * steps * std::max(first, second)) << "\n";
   if (deck.next_solver) {
+    const std::string reached = solver.time() < deck.solver.final_time
+                                    ? state_before_end(solver, solver.steps() - before, steps)
+                                    : "these load steps";
     const deck::Deck next = set_up_next(deck, solver, scene);
-    text << "Solver 2, with the body after these load steps:\n" << scene.warnings << check_steps(next, scene);
+    text << "Solver 2, with the body after " << reached << ":\n" << scene.warnings << check_steps(next, scene);
   }
   return text.str();
 }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "deck/yaml.hpp"
 #include "deck_under_test.hpp"
 
 namespace strut::deck {
@@ -648,6 +650,33 @@ TEST(DeckOfPeridigm, YamlIsReadAsXml) {
   EXPECT_EQ(
       folder.read(changed(changed(in_lines, ", Shear", "\n      Shear"), "30.0e9}", "30.0e9")).materials[0].density,
       2440);
+}
+
+// Values need no quotes for '>' and '|', which begin texts only at the end of a line, and these stay as they are.
+TEST(DeckOfPeridigm, PlainValuesOfYamlMayCompare) {
+  Problems problems;
+  const auto sets = parse_yaml(
+      "Sets:\n  a: z > 5e-3  # a > b\n  b: (z >= 1) || (x < 2)\n"
+      "  c: {Young's: x > 1, e: \"p: q > r\"}\n"
+      "Text: |\n  f: g > h\nOther: >\n  i: j > k\nLast: table(t, 'a.csv') > 1\n",
+      problems);
+  ASSERT_TRUE(sets && problems.empty()) << problems.text("");
+  std::map<std::string, std::string> values;
+  const auto keep = [&](const List& of) {
+    for (const Parameter& one : of.parameters) values[one.name] = one.value;
+  };
+  keep(*sets);
+  keep(sets->lists.at(0));
+  keep(sets->lists.at(0).lists.at(0));
+  EXPECT_FALSE(parse_yaml("Sets:\n  a: z > 1: 2\n", problems)) << "as in YAML";
+  const std::map<std::string, std::string> expected = {{"a", "z > 5e-3"},
+                                                       {"b", "(z >= 1) || (x < 2)"},
+                                                       {"Young's", "x > 1"},
+                                                       {"e", "p: q > r"},
+                                                       {"Text", "f: g > h"},
+                                                       {"Other", "i: j > k"},
+                                                       {"Last", "table(t, 'a.csv') > 1"}};
+  EXPECT_EQ(values, expected);
 }
 
 // PeriLab's lists of points begin with a line that names their column.
