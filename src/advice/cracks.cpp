@@ -155,14 +155,16 @@ std::string noisy_cracks(const Situation& situation) {
 std::string late_breaks(const Situation& situation) {
   const Scene& scene = situation.scene;
   const std::vector<MaterialBlock>& blocks = scene.body.blocks;
-  const auto could = [](const MaterialBlock& block) { return breaks_at_rest(block); };
+  const auto could = [](const MaterialBlock& block) {
+    return breaks_at_rest(block) || (block.material.damage && block.material.damage->is_gradual);
+  };
   if (!situation.deck.next_solver || std::ranges::none_of(blocks, could)) return "";
   std::string why = hindrance_of_breaks(scene.body);
   if (scene.contact.any()) why = "Contact";
   if (!tools_of(scene.conditions).empty()) why = "tools";
   if (why.empty()) return "";
   return "bonds break only from Solver 2 on, because of " + why +
-         ": in equilibria they hold, however far they are stretched\n";
+         ": in equilibria they hold, however far they are stretched, and points do not soften\n";
 }
 
 std::string soft_faces(const Situation& situation) {

@@ -54,7 +54,7 @@ Tensor counts_of_strain(const Body& body, int i) {
   return 3 / K.trace() * K;
 }
 
-// Where surfaces are near all points, as in struts, and tell more than the lattice.
+// For blocks whose points are all near surfaces, as in struts: their counts of strain would show surfaces, too.
 std::string told_of_uneven_members(const MaterialBlock& block, double uneven) {
   if (!block.is_ordinary() || uneven < uneven_from) return "";
   return text_of(std::setprecision(2), "WARNING: block '", block.name,

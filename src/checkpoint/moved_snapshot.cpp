@@ -25,7 +25,7 @@ std::vector<std::size_t> places_of(const std::vector<std::int64_t>& ids, const s
   return places;
 }
 
-// Sends a number of each point at a time, so that what travels is small beside what a run has.
+// Sends a number of each point at a time, so that messages need little memory beside the run's.
 void move_group(const Snapshot::Group& from, const RanksOfPoints& ranks, Snapshot::Group& to,
                 const Communicator& communicator) {
   std::vector<int> targets;

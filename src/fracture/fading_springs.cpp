@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mechanics/kernels/bonds.hpp"
+#include "topology/parallel_for.hpp"
 
 namespace strut {
 
@@ -46,10 +47,11 @@ void count_fading(Body& body, const StepEnd& end, const std::vector<GradientStat
   if (start.size() != body.force_states.gradients.size()) return;  // no step has begun
   for (const MaterialBlock& block : body.blocks) {
     if (!springs_fade(block) || block.in_rigid_motion) continue;
-    for (const int i : block.points) {
-      const bool fades = body.force_states.gradients[i].stiffness() < start[i].stiffness();
+    for_each_point(0, static_cast<int>(block.points.size()), [&](int k) {
+      const int i = block.points[k];
+      const bool fades = body.points[i].stabilization < start[i].stiffness();  // not for a step, as of a crushed point
       if (fades && !(body.force_states.tensors[i].lost_bonds() > 0)) body.fracture_energy[i] += lost(end, start, i);
-    }
+    });
   }
 }
 

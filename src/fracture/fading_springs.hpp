@@ -14,9 +14,9 @@ inline bool springs_fade(const MaterialBlock& block) {
   return block.material.damage && block.material.damage->is_gradual && block.has_springs(ResidualKind::both_gradients);
 }
 
-// Counts as fracture energy what springs have lost since the step's start, whose gradient states are given. Of a bond
-// it is ½ (C − C') z·z', with its residuals z and z' at both ends of the step; where the bonds of an end broke, its
-// bond work balance has that.
+// Counts as fracture energy what springs have lost since the step's start, whose gradient states are given: for a
+// bond ½ (C − C') z·z', with its residuals z and z' at both ends of the step; where the bonds of an end broke, its bond
+// work balance has that.
 void count_fading(Body& body, const StepEnd& end, const std::vector<GradientState>& start);
 
 }  // namespace strut

@@ -159,9 +159,14 @@ double Fracture::largest_stretch(const Body& body) const {
   const Domain& domain = body.domain;
   double largest = 0;
   for (int i = 0; i < domain.owned; ++i) {
-    const auto& damage = body.block_of(i).material.damage;
-    if (damage && damage->is_gradual) continue;  // such a bond holds next to nothing when it breaks
+    // A bond of a gradual crack holds next to nothing when it breaks.
+    const auto is_gradual = [&](int k) {
+      const auto& damage = body.blocks[block_of_[k]].material.damage;
+      return damage && damage->is_gradual;
+    };
+    if (is_gradual(i)) continue;
     domain.families.for_each(i, [&](int j) {
+      if (is_gradual(j)) return;
       const double limit = std::sqrt(std::min(limits_[i], limits_[j])) - 1;
       const double length = (domain.current(j) - domain.current(i)).norm();
       largest = std::max(largest, (length / (domain.reference(j) - domain.reference(i)).norm() - 1) / limit);

@@ -3,8 +3,8 @@
 // A bond breaks for both of its ends in the same step: the criterion is symmetric to the last bit, so the ranks of both
 // ends decide identically without a message. Each cluster stores the elongation that its bond nearest to the limit
 // still needs, and is checked again only when its points may have moved apart by that much (Travel). While no cluster
-// is due, a step does nothing else, unless points may fail or bonds break by energy: breaks of other bonds change this
-// energy, so clusters of such points are checked.
+// is due, a step does nothing else, unless points may fail, springs fade, or bonds break by energy: breaks of other
+// bonds change this energy, so clusters of such points are checked.
 //
 // The energy dissipated by a break is the residual in the energy balance of the points whose bonds broke. With the work
 // w of a point's force states along the step's motion of its family, before the break, and w' after it,

@@ -11,7 +11,7 @@ struct Ledger {
   double time = 0, dt = 0;                                             // s
   double kinetic = 0, elastic = 0, dissipated = 0, stabilization = 0;  // J
   double fracture = 0;                                                 // J, dissipated by bonds that broke
-  double jumps = 0;         // J, lost as a body, after bonds broke, moved to its next equilibrium, without inertia
+  double jumps = 0;         // J, lost as a body, after bonds broke or cells softened, moved to its next equilibrium
   double heat = 0;          // J, ρ c_p (T − T₀) of metals; for information, not a term of the balance
   double external = 0;      // J, work of loads, prescribed motion and thermal expansion on the points so far
   double expansion = 0;     // J, of it, by thermal expansion

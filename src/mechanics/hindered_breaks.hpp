@@ -1,4 +1,5 @@
-// Bonds that may break in equilibria, too: those of elastic solids, by a stretch that stays the same.
+// Bonds that may break in equilibria, too: those of elastic solids, by a stretch that stays the same or a cohesive
+// crack.
 #pragma once
 
 #include <string>

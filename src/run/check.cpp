@@ -7,7 +7,6 @@
 #include <optional>
 #include <sstream>
 #include <variant>
-#include <vector>
 
 #include "base/errors.hpp"
 #include "base/text.hpp"

@@ -2,7 +2,6 @@
 
 #include <csignal>
 #include <iostream>
-#include <set>
 
 #include "base/errors.hpp"
 #include "base/text.hpp"

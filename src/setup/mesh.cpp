@@ -235,7 +235,10 @@ void check_faces(const deck::Deck& deck, const PointCloud& cloud, const Communic
     const deck::Block *one = section_of(deck, cloud.block_names[block]),
                       *next = section_of(deck, cloud.block_names[other]);
     if (!one || !next || (one != next && (one->separate_body || next->separate_body))) continue;
-    if (!is_quadratic(deck.materials[one->material]) && !is_quadratic(deck.materials[next->material])) continue;
+    const auto has_fits = [&](const deck::Block& section) {
+      return section.material < std::ssize(deck.materials) && is_quadratic(deck.materials[section.material]);
+    };
+    if (!has_fits(*one) && !has_fits(*next)) continue;
     problems.add(mesh_key,
                  text_of(count, " faces of elements of block '", cloud.block_names[block], "', the first of element ",
                          element, ", meet faces with other corners of block '", cloud.block_names[other],

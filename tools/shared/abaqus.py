@@ -52,6 +52,8 @@ def problem_of(card, named, element_sets):
         named[word] = card
     if word == "NODE" and values.get("SYSTEM", "R").upper() != "R":
         return f"*NODE has SYSTEM={values['SYSTEM']}; expected Cartesian coordinates"
+    if word == "NODE" and "NSET" in values:
+        return f"*NODE has NSET={values['NSET']}, a set that meshio does not read; expected a card *NSET"
     if word in READ and card.cut:
         return (f"meshio ends *{word} at the comment in line {card.comment}, and line {card.cut} would be missing; expected no "
                 "comment between the lines of a card")

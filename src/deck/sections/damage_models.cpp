@@ -37,7 +37,9 @@ const RealKey cohesive_energy(
     {.name = "Fracture Energy",
      .unit = "J/m²",
      .range = positive,
-     .meaning = "G_c. The strength follows: E G_c/σ_c² is 4 spacings, so that the zone that softens is resolved."});
+     .meaning =
+         "G_c. The strength follows: E G/σ_c² is 4 spacings, so that the zone that softens is resolved; G is G_c "
+         "less what springs take (18 % by the default coefficient)."});
 
 const ExpressionKey stretch_over_time({.name = "Time Dependent Critical Stretch",
                                        .range = positive,

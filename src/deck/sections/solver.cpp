@@ -37,8 +37,9 @@ Section quasi_static_section() {
   return {.name = "QuasiStatic",
           .meaning =
               "A series of equilibria without inertia, instead of Verlet. Strain rates follow from the times of the "
-              "conditions. Bonds of elastic solids break between equilibria, by Critical Stretch or Cohesive Crack; "
-              "with a Damage Model there are no tools, contact, symmetry planes or temperatures.",
+              "conditions. Bonds of elastic solids break between equilibria, by Critical Stretch, or Cohesive Crack in "
+              "quadratic "
+              "cells; with a Damage Model there are no tools, contact, symmetry planes or temperatures.",
           .keys = {with_tangent, load_steps, tolerance, most_iterations,
                    without_effect({.name = "Absolute Tolerance", .range = positive},
                                   "what may be left is a part of the forces that act: Tolerance"),

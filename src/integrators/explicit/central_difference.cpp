@@ -248,7 +248,9 @@ std::vector<Vector> CentralDifference::velocities_now() {
   for_each_point(0, body_.owned(), [&](int i) { kick(i, dt()); });
   ReactionImpulses impulses = reactions_.none();
   ImpulseWork work;
-  change_velocities(conditions_, time_, point_steps(), body_, work, impulses);
+  PointTimeSteps steps = point_steps();
+  steps.none_follows = true;  // a motion that ends here goes on, as in the last frame
+  change_velocities(conditions_, time_, steps, body_, work, impulses);
   pass_tools(Archive::loading_from(tools));
   std::vector<Vector> now(before.size());
   for (std::size_t i = 0; i < now.size(); ++i) now[i] = 0.5 * (before[i] + body_.velocity[i]);

@@ -50,4 +50,12 @@ Field Constraints::way_left(const Body& body) const {
   return left;
 }
 
+bool is_a_motion(const Field& displacements, const Body& body) {
+  double farthest = 0;  // in spacings
+  for (std::size_t i = 0; i < displacements.size(); ++i) {
+    farthest = std::max(farthest, displacements[i].norm() / body.domain.cloud.spacings[i]);
+  }
+  return body.domain.communicator.max(farthest) > 1e-9;
+}
+
 }  // namespace strut

@@ -39,4 +39,7 @@ class Constraints {
   Field places_;  // target positions along the held directions of each point: m, 0 along free ones
 };
 
+// Collective. True if displacements (m) of the owned points are more than the round-off of times.
+bool is_a_motion(const Field& displacements, const Body& body);
+
 }  // namespace strut

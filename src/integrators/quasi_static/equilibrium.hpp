@@ -26,7 +26,7 @@ struct Imbalance {
   bool failed = false;   // a point inverted or its law found no stress; the numbers are then meaningless
 };
 
-// What has given way between two equilibria, on all ranks.
+// The bonds and cells that have given way between two equilibria, on all ranks.
 struct GaveWay {
   std::int64_t bonds = 0;
   bool cells = false;  // softened
@@ -65,7 +65,7 @@ class Equilibrium {
   double largest_stretch() const { return breaks_ ? fracture_->largest_stretch(body_) : 0; }
   // Collective. The largest stress of a cell that softens over the strength that it has left, in the last trial.
   double largest_load() const;
-  // J, of the last trial on this rank: work of the fading forces of broken bonds; not negative if the body is stable.
+  // J, of the last trial on this rank: work of the fading forces of broken bonds and softened cells; ≥ 0 if stable.
   double work_of_jump() const;
 
   // Moves all points from the committed positions, as the periodic sides move.
@@ -154,7 +154,7 @@ class Equilibrium {
   Field inner_;                                 // N, of the body alone
   Field forces_before_;                         // N, of the committed state
   Field outer_, outer_before_;                  // loads and reactions, N; at the start of the step
-  Field left_;                                  // N, of bonds that broke at its start; empty without
+  Field left_;                                  // N, that bonds or cells lost at its start; empty without
   Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors or periods on this rank's points
   std::vector<Vector> looked_at_;               // positions at the last evaluation of contact, m
   std::vector<PointTangent> tangents_;

@@ -37,15 +37,6 @@ constexpr int most_of_multigrid = 200;
 // they take this many times as long as new factors would.
 constexpr double wear = 1.5;
 
-// True if the displacement increment is more than the round-off of times.
-bool is_a_way(const Field& way, const Body& body) {
-  double farthest = 0;  // in spacings
-  for (std::size_t i = 0; i < way.size(); ++i) {
-    farthest = std::max(farthest, way[i].norm() / body.domain.cloud.spacings[i]);
-  }
-  return body.domain.communicator.max(farthest) > 1e-9;
-}
-
 }  // namespace
 
 Newton::Newton(Equilibrium& equilibrium, const Observer& observer)
@@ -214,7 +205,7 @@ EquilibriumSearch Newton::solve(const Tolerance& tolerance) {
   EquilibriumSearch search;
   search.left = equilibrium_.evaluate();
   Field way = equilibrium_.constraints().way_left(equilibrium_.body()), step;
-  bool moves = is_a_way(way, equilibrium_.body());
+  bool moves = is_a_motion(way, equilibrium_.body());
   double before = search.left.norm;
   damping_ = 0, damped_ = 0;
   for (; search.iterations < tolerance.most_iterations && !search.left.failed; ++search.iterations) {

@@ -247,10 +247,10 @@ void QuasiStatic::raise_no_equilibrium(std::int64_t broken) {
   const std::string where = equilibrium_.weakest_point();
   time_ += dt_;  // of the frame and the row that show where the search has ended
   std::ostringstream text;
-  text
-      << "no equilibrium at t = " << time_ << " s after " << broken
-      << " bonds broke: the crack runs through, or a piece is held by nothing; expected a motion that holds both sides "
-         "of it, shorter load steps, or explicit steps (Solver > Verlet): ";
+  text << "no equilibrium at t = " << time_ << " s after "
+       << (broken > 0 ? std::to_string(broken) + " bonds broke" : "cells softened")
+       << ": the crack runs through, or a piece is held by nothing; expected a motion that holds both sides "
+          "of it, shorter load steps, or explicit steps (Solver > Verlet): ";
   raise_together(equilibrium_.body().domain.communicator, where.empty() ? "" : text.str() + where);
 }
 

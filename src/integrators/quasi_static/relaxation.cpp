@@ -55,6 +55,8 @@ EquilibriumSearch Relaxation::solve(const Tolerance& tolerance, int most) {
   const Constraints& held = equilibrium_.constraints();
   EquilibriumSearch search;
   search.left = equilibrium_.evaluate();
+  search.converged = is_balanced(search.left, tolerance) && !is_a_motion(held.way_left(body), body);
+  if (search.converged) return search;
   Field velocity(body.owned(), Vector::Zero()), before;
   double damping = 0;
   for (int n = 0; n < most && !search.left.failed; ++n) {

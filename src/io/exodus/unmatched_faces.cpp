@@ -27,13 +27,13 @@ Vector vector_of(const double (&numbers)[3]) { return Eigen::Map<const Vector>(n
 
 void put(const Vector& vector, double (&numbers)[3]) { std::copy_n(vector.data(), 3, numbers); }
 
-// True if the two, back to back, lie over each other at their common edge. Not the faces of a crack at its tip, which
-// coincide, nor those of a sharp rim, which have material between them.
+// True if the two, back to back, lie over each other at their common edge. Not the faces of a crack at its tip, whose
+// middles nearly coincide, nor those of a sharp rim or notch, which have an angle between them.
 bool lie_over(const FaceEdge& one, const FaceEdge& other) {
-  constexpr double opposite = -0.9, between = -0.05, apart = 1e-6;
+  constexpr double opposite = -0.9, between = 0.05, apart = 0.1;
   const Vector normal = vector_of(one.normal), inward = vector_of(other.inward);
   return normal.dot(vector_of(other.normal)) < opposite && vector_of(one.inward).dot(inward) > 0 &&
-         normal.dot(inward) > between &&
+         std::abs(normal.dot(inward)) < between &&
          (vector_of(one.middle) - vector_of(other.middle)).norm() > apart * std::max(one.size, other.size);
 }
 
@@ -78,21 +78,10 @@ std::vector<int> blocks_over(const std::vector<FaceEdge>& edges) {
 // Collective. The same beside the faces of all ranks.
 std::vector<int> blocks_over(const std::vector<FaceEdge>& edges, const MeshSlice& slice,
                              const Communicator& communicator) {
-  const auto owner = [&](std::size_t k) {
-    return static_cast<std::size_t>(slice_owner(slice.layout.nodes, communicator.size(), edges[k].least));
-  };
-  std::vector<std::size_t> order(edges.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, owner);
-  std::vector<FaceEdge> leaving;
-  std::vector<std::int64_t> to_ranks(static_cast<std::size_t>(communicator.size()), 0);
-  for (const std::size_t k : order) leaving.push_back(edges[k]), ++to_ranks[owner(k)];
-  const std::vector<std::int64_t> from_ranks = counts_from_ranks(communicator, to_ranks);
-  const std::vector<int> answers = blocks_over(exchange<FaceEdge>(communicator, leaving, to_ranks, from_ranks));
-  const std::vector<int> mine = exchange<int>(communicator, answers, from_ranks, to_ranks);
-  std::vector<int> over(edges.size());
-  for (std::size_t n = 0; n < order.size(); ++n) over[order[n]] = mine[n];
-  return over;
+  std::vector<int> owners;
+  for (const FaceEdge& one : edges) owners.push_back(slice_owner(slice.layout.nodes, communicator.size(), one.least));
+  const Routes routes(communicator, owners);
+  return routes.back(blocks_over(routes.there(edges)));
 }
 
 // The block of each element here.
@@ -147,7 +136,7 @@ std::vector<UnmatchedFaces> unmatched_faces(const MeshSource* mesh, const Commun
   for (const Face& face : faces) {
     const auto end = edge + std::ssize(face.corners());
     const auto known = [](int block) { return block >= 0; };
-    // At one edge alone, the two sides of a crack may have other faces, too.
+    // The two sides of a crack, too, may have other faces, but with one common edge only.
     if (std::count_if(edge, end, known) > 1)
       pairs.add(blocks[face.element], *std::find_if(edge, end, known), slice.elements[face.element] + 1);
     edge = end;

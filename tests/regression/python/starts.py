@@ -9,6 +9,7 @@ import unittest
 import warnings
 
 import block
+import netCDF4
 import numpy as np
 import strut
 from block import SPACING, InFolder
@@ -165,6 +166,15 @@ class Starts(InFolder):
                     log = strut.Run(second, block.mesh()).log
                     for told in ("goes on with its steps", "node sets hold other points than there; loads begin anew"):
                         self.assertIn(told, log)
+
+    def test_a_motion_that_ends_is_in_the_velocities_that_a_checkpoint_keeps(self):
+        push = {"Type": "Prescribed Displacement", "Node Set": "block_zmax", "Coordinate": "z", "Value": "table(t, 0, 0, 4e-6, -8e-5)"}
+        deck = but(block.deck(History={"Frequency": 1}), Boundary_Conditions={"push": push}, Restart={"Filename": "first.restart"})
+        run = strut.run(deck, block.mesh())
+        with netCDF4.Dataset("first.restart") as file:
+            kept = np.asarray(file[next(name for name in file.variables if name.endswith("_velocity_now"))][:])
+        shown = run.whole("Velocity")
+        self.assertLess(np.abs(np.sort(kept.ravel()) - np.sort(shown.ravel())).max(), 1e-9 * np.abs(shown).max())
 
     def test_every_body_goes_on_with_the_same_bits(self):
         """Formulations and laws, symmetry planes, periodic sides, mass scaling."""
