@@ -144,6 +144,27 @@ bool has_fracture_energy(const MaterialBlock& block) {
   return damage && (damage->fracture_energy > 0 || (damage->ductility && damage->ductility->fracture_energy > 0));
 }
 
+// A warning for each block whose cracks have the constants of its largest cells, but whose cells differ.
+std::string told_of_unequal_cells(const Situation& situation) {
+  constexpr double worth_saying = 1.25;
+  const Body& body = situation.scene.body;
+  std::string text;
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (!has_fracture_energy(body.blocks[b])) continue;
+    double least = HUGE_VAL;
+    for (const int i : body.blocks[b].points) least = std::min(least, body.domain.cloud.spacings[i]);
+    least = -body.domain.communicator.max(-least);
+    const double largest = body.domain.blocks[b].spacing;
+    if (!(largest > worth_saying * least)) continue;
+    text += text_of(std::setprecision(3), "WARNING: block '", body.blocks[b].name, "': its cells have edges of ", least,
+                    " to ", largest,
+                    " m, and its cracks the constants of the largest: between cells half as large a "
+                    "crack takes half of the Fracture Energy, by Bond Energy a tenth; expected cells of one size, or a "
+                    "block for each\n");
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string oblong_cells(const Situation& situation) {
@@ -168,6 +189,7 @@ std::string oblong_cells(const Situation& situation) {
            << "it was found at ratios of 2 and 3)";
     text << "; expected cubes\n";
   }
+  text << told_of_unequal_cells(situation);
   return text.str();
 }
 

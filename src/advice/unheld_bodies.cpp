@@ -29,6 +29,7 @@ constexpr std::size_t most_lines = 3;  // a scan may have many loose pieces
 struct Piece {
   std::vector<double> of_block;  // number of its points in each block
   double loaded = 0;             // number of its points on which a Body Force acts
+  double reached = 0;            // number of its points that tools may meet
   Vector middle = Vector::Zero();
   Tensor moments = Tensor::Zero();  // Σ |r|² 1 − r⊗r over its points, m²
   double radius = 0;                // of gyration, m
@@ -142,6 +143,7 @@ void hold_by_tools(const Scene& scene, double start, Pieces& pieces) {
   for (const RigidTool& tool : tools_of(scene.conditions)) {
     const Vector offset = tool.offset(start);
     for (const int i : tool.points) {
+      ++pieces.all[pieces.of[i]].reached;
       const Vector place = scene.body.current(i) - offset;
       const Surface at = tool.met_by(i, tool.shape, place);
       if (at.gap < touching * domain.cloud.spacings[i]) {
@@ -163,6 +165,7 @@ void hold(const Scene& scene, double start, double step, Pieces& pieces) {
   });
   sum(domain.communicator, pieces.all, [](Piece& piece) { return piece.holds.reshaped(); });
   sum(domain.communicator, pieces.all, [](Piece& piece) { return std::span(&piece.loaded, 1); });
+  sum(domain.communicator, pieces.all, [](Piece& piece) { return std::span(&piece.reached, 1); });
 }
 
 // The number of pieces with points of each block.
@@ -237,8 +240,6 @@ std::string unheld_bodies(const Situation& situation) {
   const auto& interactions = situation.interactions;
   const double start = situation.start, duration = situation.duration;
   if (!scene.quasi_static) return "";
-  const bool any_tools = !tools_of(scene.conditions).empty();
-  if (interactions.empty() && any_tools) return "";
   const Domain& domain = scene.body.domain;
   Pieces pieces = pieces_of(domain);
   hold(scene, start, duration / scene.quasi_static->load_steps, pieces);
@@ -252,7 +253,7 @@ std::string unheld_bodies(const Situation& situation) {
   for (std::size_t p = 0; p < pieces.all.size(); ++p) {
     const std::string free = freedom(pieces.all[p].holds);
     const bool is_pushed = may_be_pushed(pieces.all[p], counts, interactions);
-    const bool by_nothing = !is_pushed && !any_tools && free == "it" && pieces.all[p].loaded > 0;
+    const bool by_nothing = !is_pushed && pieces.all[p].reached == 0 && free == "it" && pieces.all[p].loaded > 0;
     if (free.empty() || !(is_pushed || by_nothing) || ++found > most_lines) continue;
     const std::string name = name_of(pieces.all[p], domain, points_of_blocks);
     if (by_nothing) {

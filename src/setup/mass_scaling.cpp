@@ -70,13 +70,17 @@ std::vector<Added> added_to(const Body& body) {
 
 std::string percent(double share) { return text_of(std::setprecision(3), 100 * share, " %"); }
 
-std::string report_of(const Body& body, const std::vector<Added>& added, double wanted) {
+// `most`: the largest fraction of added mass that all blocks together may have.
+std::string report_of(const Body& body, const std::vector<Added>& added, double wanted, double most) {
   std::ostringstream text;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     if (added[b].scaled == 0) continue;  // what round-off adds is no mass
     text << "mass scaling for a step of " << wanted << " s: block '" << body.blocks[b].name << "' gets "
          << added[b].added << " kg, " << percent(added[b].share()) << " of its own, on " << added[b].scaled << " of "
          << added[b].points << " points\n";
+    if (added[b].share() > most)
+      text << "WARNING: the inertia of block '" << body.blocks[b].name << "' grows by " << percent(added[b].share())
+           << ", more than Most Added Mass, which limits that of all blocks together; expected a shorter step\n";
   }
   text << "mass scaling: " << added.back().added << " kg in all, " << percent(added.back().share())
        << "; inertia, momentum and kinetic energy are those of the larger mass\n";
@@ -104,7 +108,7 @@ double scale_masses(const deck::Deck& deck, Body& body, std::string& report) {
                                                      " s takes " + percent(share) + " more mass; expected " +
                                                      percent(most) + " at most (Most Added Mass): want a shorter step"
                                                : "");
-  report += report_of(body, added, wanted);
+  report += report_of(body, added, wanted, most);
   return highest;
 }
 

@@ -674,6 +674,24 @@ TEST(OblongCells, OfOrdinaryPointsSurfacesAndCracksAreToldOf) {
   expect_told(told(itself), {dilatation, surfaces});
 }
 
+TEST(OblongCells, OfTwoSizesAreToldOfWhereCracksTakeTheirConstants) {
+  const RunFolder folder;
+  folder.write("points.txt",
+               cubes(1, Vector::Zero(), 4, 4, 4, 1e-3) + cubes(1, Vector::Constant(20e-3), 4, 4, 4, 2e-3));
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.materials = changed(copper(), "Elastic Correspondence", "Elastic");
+  for (const char* energy : {"Fracture Energy", "Critical Stretch"}) {
+    parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key(energy, "1e-3"));
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") +
+                                        key("Horizon Factor", "2.015") + key("Damage Model", "brittle"));
+    const std::string all = described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+    EXPECT_EQ(all.find("its cells have edges of 0.001 to 0.002 m") != std::string::npos,
+              energy == std::string("Fracture Energy"))
+        << all;
+  }
+}
+
 // Bars of four by four points, in which surfaces are near everywhere. Of cubes 1.63 times their stiffness was found, of
 // cells 1.2, 1.5 and 2 times as long as wide 1.06, 1.39, 2.34, of sheared cubes 1.82.
 TEST(OblongCells, OfThinOrdinaryBarsAreToldOfWithoutTheNumbersOfCubes) {

@@ -99,6 +99,10 @@ TEST(UnheldBodies, OnWhichLoadsActAreToldOf) {
   EXPECT_EQ(told_of(weight + held("foot", "z")), "");
   EXPECT_EQ(told_of(weight + plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1")), "");
   EXPECT_EQ(told_of(held("foot", "z")), "");
+  Parts parts = pile(folder, along("weight", "Body Force", "block_3", "z", "-1e4") +
+                                 plane("floor", "Rigid Plane", "block_2", "0 0 0", "0 0 1"));
+  parts.contact = "";
+  EXPECT_EQ(told(folder, parts), "block_3: nothing holds it\n");
 }
 
 // Loose pieces of one block, which another may push.
