@@ -62,7 +62,7 @@ bool goes_on(const OfTime& of_time, bool is_velocity, double start, double durat
 bool change_later(const Scene& scene, double start, double duration) {
   bool any = false;
   scene.conditions.visit([&](const PrescribedMotion& one) {
-    at_corners(one.value, where(one.points, scene.body),
+    over_the_box(one.value, where(one.points, scene.body),
                [&](const OfTime& of_time) { any = any || !goes_on(of_time, one.is_velocity, start, duration); });
   });
   return any;

@@ -92,9 +92,11 @@ Where where(const std::vector<int>& points, const Body& body) {
   return all;
 }
 
-void at_corners(const Function& value, const Where& where, const std::function<void(const OfTime&)>& visit) {
-  for (int corner = 0; corner < (value.depends_on_place() ? 8 : 1); ++corner) {
-    const Vector X = where.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+void over_the_box(const Function& value, const Where& where, const std::function<void(const OfTime&)>& visit) {
+  if (value.depends_on_place() && where.box.isEmpty()) return;
+  for (int place = 0; place < (value.depends_on_place() ? 27 : 1); ++place) {
+    const Vector part(0.5 * (place % 3), 0.5 * (place / 3 % 3), 0.5 * (place / 9));
+    const Vector X = where.box.min() + part.cwiseProduct(where.box.sizes());
     visit([&](double t) { return value.evaluate(X, t); });
   }
 }
@@ -102,7 +104,7 @@ void at_corners(const Function& value, const Where& where, const std::function<v
 std::vector<double> changes_of(const Function& value, const Where& where, double start, double end) {
   if (!value.depends_on_time()) return {};
   std::vector<double> times = numbers_in(value.text());
-  at_corners(value, where, [&](const OfTime& of_time) {
+  over_the_box(value, where, [&](const OfTime& of_time) {
     for (const Jump& jump : jumps_of(of_time, start, end)) times.push_back(jump.time);
   });
   std::erase_if(times, [&](double t) { return !(t > start && t < end); });

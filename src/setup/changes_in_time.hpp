@@ -40,8 +40,9 @@ struct Where {
 // Collective. `points`: owned.
 Where where(const std::vector<int>& points, const Body& body);
 
-// Calls visit(of_time) with the value as a function of time at each corner of the box, or once if it is the same there.
-void at_corners(const Function& value, const Where& where, const std::function<void(const OfTime&)>& visit);
+// Calls visit(of_time) with the value as a function of time at the corners and middles of the box, of its edges and
+// faces, or once if it does not depend on place.
+void over_the_box(const Function& value, const Where& where, const std::function<void(const OfTime&)>& visit);
 
 // Times in a run, s, in order, at which the value may turn or jump: its jumps, and the numbers of its text, among
 // which are the places of its tables, and the middles between these.

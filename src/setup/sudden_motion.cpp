@@ -34,10 +34,10 @@ double shortest_pulse(const OfTime& of_time, double start, double end, bool acts
   return shortest;
 }
 
-// The largest change by more than `least`, at the corners of the box, that is done within one step.
+// The largest change by more than `least`, at the places of the box, that is done within one step.
 Jump largest_jump(const Function& value, const Where& where, const Steps& steps, double least) {
   Jump worst;
-  at_corners(value, where, [&](const OfTime& of_time) {
+  over_the_box(value, where, [&](const OfTime& of_time) {
     const Jump jump = strut::largest_jump(of_time, steps, least);
     if (jump.length > worst.length) worst = jump;
   });
@@ -192,7 +192,7 @@ std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& poi
     for (const Function& value : sampled_values(deck.conditions[c])) {
       if (!value.depends_on_time()) continue;
       double pulse = std::numeric_limits<double>::infinity();
-      at_corners(value, where(points[c], body), [&](const OfTime& of_time) {
+      over_the_box(value, where(points[c], body), [&](const OfTime& of_time) {
         pulse = std::min(pulse, shortest_pulse(of_time, deck.solver.initial_time, deck.solver.final_time, acts_before));
       });
       if (!(step > told * pulse)) continue;
@@ -243,9 +243,9 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
     for (Function& load : sampled_values(deck.conditions[c])) values.push_back(std::move(load));
     for (const Function& value : values) {
       if (!value.depends_on_time()) continue;
-      double largest = 0, zero = 0;
+      double largest = 0, zero = 0, seen = 0;
       Missed missed;
-      at_corners(value, where(points[c], body), [&](const OfTime& of_time) {
+      over_the_box(value, where(points[c], body), [&](const OfTime& of_time) {
         if (strains) zero = of_time(start);
         std::vector<double> all;
         double way = 0;  // of a velocity, up to t
@@ -253,11 +253,12 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
           const double t = start + static_cast<double>(k) * apart;
           all.push_back(is_velocity ? way : of_time(t) - zero);
           if (k % looks_between == 0) largest = std::max(largest, std::abs(all.back()));
+          if (std::isfinite(all.back())) seen = std::max(seen, std::abs(all.back()));
           if (is_velocity) way += apart * of_time(t + 0.5 * apart);
         }
         take_missed(all, looks_between, start, apart, missed);
       });
-      if (!(missed.beyond > told * largest + round_off * std::abs(zero))) continue;
+      if (!(missed.beyond > told * largest + round_off * (std::abs(zero) + seen))) continue;
       text << "WARNING: " << value.path()
            << (strains       ? ": changes by "
                : is_velocity ? ": its integral reaches "
