@@ -68,10 +68,23 @@ double measured_moving_step(const deck::Deck& deck, CentralDifference& solver, B
 
 std::string range(double least, double most) { return as_duration(least) + " to " + as_duration(most); }
 
-std::string check_steps(const deck::Deck& deck, Scene& scene) {
+// `state`: of the run from which this one starts, or null.
+std::string check_steps(const deck::Deck& deck, Scene& scene, StartState* state = nullptr) {
   constexpr double most = 2;  // factor if the step shrinks by deformation, points touch and are subcycled
-  CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
-                           deck.solver.initial_time, std::move(scene.fracture));
+  std::optional<CentralDifference> made;
+  const auto make = [&](auto beginning) {
+    made.emplace(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control, beginning,
+                 std::move(scene.fracture));
+  };
+  const bool goes_on = state && state->goes_on();
+  if (goes_on) {
+    make(CentralDifference::ToBeRestored());
+    state->go_on(*made);
+  } else {
+    make(deck.solver.initial_time);
+  }
+  CentralDifference& solver = *made;
+  const std::string overlaps = state && !goes_on ? state->overlaps(solver.contact(), scene.body) : "";
   const double limit = solver.critical_time_step();
   check_step_at(deck.solver.initial_time, scene.control, limit);
   check_libraries(scene.body, scene.control, limit);
@@ -79,7 +92,7 @@ std::string check_steps(const deck::Deck& deck, Scene& scene) {
   const double moving = std::max(first, measured_moving_step(deck, solver, scene.body));
   const double dt = scene.control.fixed_dt > 0 ? scene.control.fixed_dt : scene.control.safety_factor * limit;
   const double steps = std::ceil((deck.solver.final_time - deck.solver.initial_time) / dt);
-  return text_of(step_warning(scene.control, limit, deck.solver.initial_time), "critical time step ", limit,
+  return text_of(overlaps, step_warning(scene.control, limit, deck.solver.initial_time), "critical time step ", limit,
                  " s at the start; about ", steps, " steps of ", dt,
                  " s (more where the step must shrink with the deformation)\n", "estimated time ",
                  range(steps * moving, most * steps * moving), " (", moving,
@@ -150,7 +163,8 @@ void check(const std::filesystem::path& deck_file, const Communicator& communica
   const std::string started = state ? state->restore(deck, scene) : "";
   const std::string scene_text = describe_scene(scene, advice(deck, scene)) + started;
   if (communicator.rank() == 0) std::cout << scene_text << std::flush;
-  const std::string text = (scene.quasi_static ? check_equilibria(deck, scene, state) : check_steps(deck, scene)) +
+  const std::string text = (scene.quasi_static ? check_equilibria(deck, scene, state)
+                                               : check_steps(deck, scene, state ? &*state : nullptr)) +
                            memory_and_frame(scene, variables);
   if (communicator.rank() == 0) std::cout << text << deck_file.string() << ": no errors\n";
 }

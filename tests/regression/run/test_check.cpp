@@ -103,6 +103,33 @@ TEST(Check, TellsTheTimeThatARunTakes) {
   if (folder.world.rank() == 0) expect_told_time(told, seconds);
 }
 
+// Bodies that touch have shorter steps than those that a run begins with.
+TEST(Check, KnowsTheStepsOfARunThatGoesOn) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, 1e-3) + cubes(2, {0, 0, 3.05e-3}, 3, 3, 3, 1e-3));
+  const std::string checkpoint = (folder / "first.restart").string();
+  Parts parts = thrown_block(contact_of({{"block_1", "block_2"}}, "1e-3", "1e16"));
+  const auto told = [&](const std::string& from, const std::string& until, const std::string& more,
+                        const auto& action) {
+    parts.times = key("Initial Time", from) + key("Final Time", until);
+    std::string text = parts.text();
+    text.insert(text.rfind("</ParameterList>"), more);
+    testing::internal::CaptureStdout();
+    action(folder.write("deck.xml", text), folder.world);
+    return testing::internal::GetCapturedStdout();
+  };
+  const auto whole = [](const auto& deck, const Communicator& world) { run(deck, world); };
+  const auto only_check = [](const auto& deck, const Communicator& world) { check(deck, world); };
+  const std::string step = "critical time step ([-+.e0-9]+) s";
+  const std::string first = told("0", "2e-6", section("Restart", key("Filename", checkpoint)), whole);
+  const std::string start = section("Start From", key("Checkpoint", checkpoint));
+  const std::string checked = told("2e-6", "4e-6", start, only_check), done = told("2e-6", "4e-6", start, whole);
+  if (folder.world.rank() != 0) return;
+  ASSERT_FALSE(numbers_in(done, step).empty()) << done;
+  EXPECT_LT(numbers_in(done, step)[0], 0.9 * numbers_in(first, step)[0]) << done;
+  EXPECT_NEAR(numbers_in(checked, step)[0], numbers_in(done, step)[0], 1e-3 * numbers_in(done, step)[0]) << checked;
+}
+
 // The first load step is that of the run, with the friction that is there.
 TEST(Check, LooksAtEquilibriaThatStartFromAnotherRun) {
   const RunFolder folder;
