@@ -1076,6 +1076,26 @@ class Tetrahedra(ToolTest):
         np.testing.assert_array_equal(mesh.sets["foot"], [0, 1, 2])
         np.testing.assert_allclose(tetrahedra_volumes(mesh.nodes, mesh.blocks["rest"]), 1 / 3)
 
+    def test_elements_in_two_groups_of_gmsh(self):
+        """"foot" is two surfaces, of which one is also "side"; the second volume is also in "all"."""
+        text = GMSH_4.replace("3\n2 5", "5\n2 4 \"side\"\n3 3 \"all\"\n2 5").replace("0 0 1 2\n", "0 0 2 2\n9 0 0 0 1 1 0 2 4 5 0\n")
+        text = text.replace("1 1 1 1 1 0", "1 1 1 2 3 1 0").replace("2 2 2 1 2 0", "2 2 2 2 3 2 0")
+        text = text.replace("3 3 1 3\n", "4 4 1 4\n2 9 2 1\n4 1 2 4\n")
+        said, mesh = self.works("tetrahedra", self.write("a.msh", text))
+        self.assertEqual({name: len(nodes) for name, nodes in mesh.blocks.items()}, {"strut_one": 1, "rest": 1})
+        self.assertIn("block   all: all its tetrahedra are in other groups", said["no"])
+        np.testing.assert_array_equal(mesh.sets["side"], [0, 1, 3])
+        np.testing.assert_array_equal(mesh.sets["foot"], [0, 1, 2, 3])
+
+    def test_numbers_of_other_names_are_told_and_may_be_chosen(self):
+        self.mesh(cell_data=self.groups("material")).write(self.path("a.vtu"))
+        said, mesh = self.works("tetrahedra", self.path("a.vtu"))
+        self.assertEqual(list(mesh.blocks), ["body"])
+        self.assertIn("cell data 'material' (3 values); --groups material", said["not"])
+        _, mesh = self.works("tetrahedra", self.path("a.vtu"), "--groups", "material")
+        self.assertEqual(list(mesh.blocks), ["block_1", "block_2"])
+        self.refused("tetrahedra", "no cell data 'materials' .did you mean 'material'", self.path("a.vtu"), "--groups", "materials")
+
     def test_formats_with_numbers(self):
         for name, key in {"a.vtu": "CellEntityIds", "a.vtk": "CellEntityIds", "a.mesh": "medit:ref"}.items():
             with self.subTest(name):
