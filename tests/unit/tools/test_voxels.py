@@ -1174,6 +1174,21 @@ class Tetrahedra(ToolTest):
         refused("ELSET=a, which is also in line 7", ABAQUS.replace("C3D4", "C3D4, elset=A") + more.replace("=A", "=a"))
         refused("ends .ELEMENT at the comment in line 9, and line 10 would", f"{ABAQUS}** the second\n2, 2, 5, 3, 4\n")
 
+    def test_what_meshio_reads_otherwise_than_nastran_is_refused(self):
+        def lines(kind, *last):
+            return "BEGIN BULK\n" + "".join(kind.format(n, *node) for n, node in enumerate(
+                [(0, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (*last, 0, 0, 1)], 1)) + "CTETRA,1,1,1,2,3,4\nENDDATA\n"
+
+        wide = "GRID*   {:<16}{:<16}{:<16.1f}{:<16.1f}*A\n*A      {:<16.1f}\n"
+        for kind in ("GRID,{},{},{}.,{}.,{}.\n", "GRID    {:<8}{:<8}{:<8.1f}{:<8.1f}{:<8.1f}\n"):
+            _, mesh = self.works("tetrahedra", self.write("a.bdf", lines(kind, 0)))
+            self.assertEqual(len(mesh.nodes), 4)
+            self.refused("tetrahedra", "line 5: GRID in the coordinate system 5, .*; expected the basic one",
+                         self.write("a.bdf", lines(kind, 5)))
+        self.refused("tetrahedra", "GRID. in the coordinate system 5", self.write("a.nas", lines(wide, 5)))
+        self.refused("tetrahedra", "line 1: GRDSET in the coordinate system 3", self.write("a.fem", "GRDSET,,3\n" + lines(kind, 0)))
+        self.refused("tetrahedra", "line 1: INCLUDE", self.write("a.bdf", "include 'nodes.bdf'\n" + lines(kind, 0)))
+
     def test_names_of_blocks_are_given(self):
         self.mesh(cell_data=self.groups("medit:ref")).write(self.path("a.mesh"))
         _, mesh = self.works("tetrahedra", self.path("a.mesh"), "--block-names", "strut", "rest")
