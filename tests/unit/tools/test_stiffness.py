@@ -3,11 +3,12 @@
 known in closed form."""
 import csv
 import os
+import shutil
 import subprocess
 import unittest
 import xml.etree.ElementTree as tree
 
-from tool_test import InFolder
+from tool_test import TOOLS, InFolder
 
 import netCDF4
 import numpy as np
@@ -183,6 +184,31 @@ class Samples(InFolder):
             sample = faces.Sample(str(self.folder / name))
             np.testing.assert_array_equal(sample.numbers, [1, 2, 3])
             np.testing.assert_array_equal(sample.places[:, 2], [0.5, 1.5, 2.5], err_msg=name)
+
+    def test_a_mesh_older_than_one_it_is_made_of_is_made_anew(self):
+        """By a strut-mesh that says so; tools/run stands in an installed tree, whose runs end at once."""
+        for name, text in {"tree/bin/strut-mesh": "echo made anew >&2; exit 1", "tree/bin/mpirun": "exit 0"}.items():
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / name).write_text(f"#!/bin/sh\n{text}\n")
+            (self.folder / name).chmod(0o755)
+        tools = self.folder / "tree/share/strut/tools"
+        tools.mkdir(parents=True)
+        shutil.copy(TOOLS / "run", tools)
+        (self.folder / "decks/parts").mkdir(parents=True)
+        (self.folder / "decks/a.xml").write_text(deck("a.g", {"block": (117e9, 0.35)}))
+        (self.folder / "decks/a.recipe").write_text("shape = file\n[body]\nfile = parts/one.g\n[body]\n"
+                                                    "  file=parts/two b.g  # the plate")
+        names = ("a.g", "parts/one.g", "parts/two b.g")
+        for newest in names:
+            for name in ("a.recipe", *names):
+                (self.folder / "decks" / name).touch()
+                os.utime(self.folder / "decks" / name, (2e9, 2e9 + (name == newest) + 0.5 * (name == "a.g")))
+            bin = self.folder / "tree/bin"
+            run = subprocess.run([tools / "run", "decks/a.xml"], capture_output=True, text=True, cwd=self.folder,
+                                 env={**os.environ, "PATH": f"{bin}:{os.environ['PATH']}"})
+            measured = self.run_tool("stiffness", "decks/a.xml", "out", STRUT_MESH=str(bin / "strut-mesh"))
+            for done in (run, measured):
+                self.assertEqual("made anew" in done.stderr, newest != "a.g", (newest, done.stderr))
 
     def test_errors_are_one_line_that_helps(self):
         (self.folder / "a.xml").write_text(deck("a.g", {"block": (117e9, 0.35)}))
