@@ -152,6 +152,11 @@ class Recipe:
                 (bodies[-1] if bodies else common)[key] = value
         return bodies or [common]
 
+    def files(self):
+        """The paths of the meshes that its bodies are made of, those that are there."""
+        named = [os.path.join(os.path.dirname(self.path), body["file"]) for body in self.bodies() if body.get("file")]
+        return [path for path in named if os.path.exists(path)]
+
     def changed(self, key, value):
         """The text with another value of a key, `key` or `body.key`; without the line where the value is empty."""
         body, _, name = key.rpartition(".")

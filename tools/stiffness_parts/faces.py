@@ -15,28 +15,43 @@ class Sample:
         parts, box = extent.of_blocks(mesh, None, extent.cells_of), extent.box_in(mesh, None)
         if not parts:
             fail(f"{mesh}: expected hexahedra or tetrahedra, which tell the faces of a box; it has none, also others, or is damaged")
-        edges, self.places, self.halves = (np.concatenate(found) for found in zip(*parts))
-        self.edge, (self.low, self.high) = edges.min(axis=0), box
+        self.edges, self.places, self.halves = (np.concatenate(found) for found in zip(*parts))
+        self.low, self.high = box
         try:
             with opened(mesh) as file:
-                self.numbers = file["elem_num_map"][:] if "elem_num_map" in file.variables else 1 + np.arange(len(edges))
+                self.numbers = file["elem_num_map"][:] if "elem_num_map" in file.variables else 1 + np.arange(len(self.edges))
         except (OSError, IndexError, KeyError, AttributeError) as error:
             fail(f"{mesh} is damaged: {error}")
 
     def held(self, face, layers):
         """The numbers of the points in this many layers at a face. In the innermost layer, only points without another
         one of it between them and the face count, which excludes the second half of a flat cell."""
+        axis, depth, reach = self.measured(face)
+        outer = (layers - 1) * self.thickness(face)
+        near = np.flatnonzero(depth < outer + reach)
+        innermost = near[depth[near] > outer]
+        return np.sort(self.numbers[np.setdiff1d(near, self.behind(innermost, axis, depth))])
+
+    def measured(self, face):
+        """The axis of a face; for each element its depth, and that below which it is at the face: half its own edge, as meshes may
+        be graded, and a tenth of that for faces that are not quite plane; the whole edge of cells that are partly filled."""
         axis = "xyz".index(face[0])
         depth = self.places[:, axis] - self.low[axis] if face.endswith("min") else self.high[axis] - self.places[:, axis]
-        edge = self.edge[axis] * (1 + 1e-9)
-        near = np.flatnonzero(depth < layers * edge)
-        innermost = near[depth[near] > (layers - 1) * edge]
-        return np.sort(self.numbers[np.setdiff1d(near, self.behind(innermost, axis, depth))])
+        edge = self.edges[:, axis]
+        return axis, depth, np.where(self.halves[:, axis] > 0.5 * edge * (1 - 1e-6), 0.55 * edge, edge)
+
+    def thickness(self, face):
+        """Of a layer at a face: the median edge of the elements there, 0 without any."""
+        axis, depth, reach = self.measured(face)
+        there = self.edges[depth < reach, axis]
+        return np.median(there) if len(there) else 0.0
 
     def behind(self, members, axis, depth):
         """Those of the members that have another one in front of more than their center."""
         across = [a for a in range(3) if a != axis]
-        bins = np.floor(self.places[members][:, across] / self.edge[across]).astype(int)
+        if not len(members):
+            return np.array([], int)
+        bins = np.floor(self.places[members][:, across] / self.edges[members][:, across].max(axis=0)).astype(int)
         there = {}
         for place, member in zip(map(tuple, bins), members):
             there.setdefault(place, []).append(member)

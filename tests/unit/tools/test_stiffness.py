@@ -3,11 +3,12 @@
 known in closed form."""
 import csv
 import os
+import shutil
 import subprocess
 import unittest
 import xml.etree.ElementTree as tree
 
-from tool_test import InFolder
+from tool_test import TOOLS, InFolder
 
 import netCDF4
 import numpy as np
@@ -183,6 +184,54 @@ class Samples(InFolder):
             sample = faces.Sample(str(self.folder / name))
             np.testing.assert_array_equal(sample.numbers, [1, 2, 3])
             np.testing.assert_array_equal(sample.places[:, 2], [0.5, 1.5, 2.5], err_msg=name)
+
+    def test_faces_of_a_graded_mesh_hold_their_layers(self):
+        heights = np.cumsum([0, 1, 1.5, 2.25, 3.4])
+        places = np.array([(x, y, z) for z in heights for y in (0, 3) for x in (0, 3, 6)])
+        brick = np.array([0, 1, 4, 3, 6, 7, 10, 9])
+        bricks = np.array([brick + i + 6 * k for k in range(4) for i in range(2)])
+        write_mesh(self.folder / "a.g", places, [("a", "HEX8", bricks, None)], {})
+        sample = faces.Sample(str(self.folder / "a.g"))
+        for face, layers, held in (("zmin", 1, [1, 2]), ("zmax", 1, [7, 8]), ("zmin", 2, [1, 2, 3, 4]), ("zmax", 2, [5, 6, 7, 8]),
+                                   ("xmin", 1, [1, 3, 5, 7]), ("ymax", 1, range(1, 9))):
+            np.testing.assert_array_equal(sample.held(face, layers), held, err_msg=face)
+
+    def test_faces_of_uneven_tetrahedra_are_held(self):
+        """Of five in a brick of 4 x 4 x 4 at each end of a long one, whose middle has a thin one: all that have a side at a face."""
+        corners = np.array([(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (0, 0, 4), (4, 0, 4), (4, 4, 4), (0, 4, 4)], float)
+        five = np.array([(0, 1, 3, 4), (2, 3, 1, 6), (5, 4, 6, 1), (7, 6, 4, 3), (1, 3, 4, 6)])
+        thin = np.array([(1, 1, 5), (1.1, 1, 5), (1, 1.1, 5), (1, 1, 5.1)])
+        write_mesh(self.folder / "a.g", np.concatenate([corners, corners + (0, 0, 8), thin]),
+                   [("a", "TET4", np.concatenate([five, five + 8, [[16, 17, 18, 19]]]), None)], {})
+        sample = faces.Sample(str(self.folder / "a.g"))
+        self.assertLessEqual({1, 2}, set(sample.held("zmin", 1)))
+        self.assertLessEqual({8, 9}, set(sample.held("zmax", 1)))
+        self.assertNotIn(11, np.concatenate([sample.held(face, 1) for face in faces.FACES]))
+
+    def test_a_mesh_older_than_one_it_is_made_of_is_made_anew(self):
+        """By a strut-mesh that says so; tools/run stands in an installed tree, whose runs end at once."""
+        for name, text in {"tree/bin/strut-mesh": "echo made anew >&2; exit 1", "tree/bin/mpirun": "exit 0"}.items():
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / name).write_text(f"#!/bin/sh\n{text}\n")
+            (self.folder / name).chmod(0o755)
+        tools = self.folder / "tree/share/strut/tools"
+        tools.mkdir(parents=True)
+        shutil.copy(TOOLS / "run", tools)
+        (self.folder / "decks/parts").mkdir(parents=True)
+        (self.folder / "decks/a.xml").write_text(deck("a.g", {"block": (117e9, 0.35)}))
+        (self.folder / "decks/a.recipe").write_text("shape = file\n[body]\nfile = parts/one.g\n[body]\n"
+                                                    "  file=parts/two b.g  # the plate")
+        names = ("a.g", "parts/one.g", "parts/two b.g")
+        for newest in names:
+            for name in ("a.recipe", *names):
+                (self.folder / "decks" / name).touch()
+                os.utime(self.folder / "decks" / name, (2e9, 2e9 + (name == newest) + 0.5 * (name == "a.g")))
+            bin = self.folder / "tree/bin"
+            run = subprocess.run([tools / "run", "decks/a.xml"], capture_output=True, text=True, cwd=self.folder,
+                                 env={**os.environ, "PATH": f"{bin}:{os.environ['PATH']}"})
+            measured = self.run_tool("stiffness", "decks/a.xml", "out", STRUT_MESH=str(bin / "strut-mesh"))
+            for done in (run, measured):
+                self.assertEqual("made anew" in done.stderr, newest != "a.g", (newest, done.stderr))
 
     def test_errors_are_one_line_that_helps(self):
         (self.folder / "a.xml").write_text(deck("a.g", {"block": (117e9, 0.35)}))

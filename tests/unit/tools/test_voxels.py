@@ -1076,6 +1076,26 @@ class Tetrahedra(ToolTest):
         np.testing.assert_array_equal(mesh.sets["foot"], [0, 1, 2])
         np.testing.assert_allclose(tetrahedra_volumes(mesh.nodes, mesh.blocks["rest"]), 1 / 3)
 
+    def test_elements_in_two_groups_of_gmsh(self):
+        """"foot" is two surfaces, of which one is also "side"; the second volume is also in "all"."""
+        text = GMSH_4.replace("3\n2 5", "5\n2 4 \"side\"\n3 3 \"all\"\n2 5").replace("0 0 1 2\n", "0 0 2 2\n9 0 0 0 1 1 0 2 4 5 0\n")
+        text = text.replace("1 1 1 1 1 0", "1 1 1 2 3 1 0").replace("2 2 2 1 2 0", "2 2 2 2 3 2 0")
+        text = text.replace("3 3 1 3\n", "4 4 1 4\n2 9 2 1\n4 1 2 4\n")
+        said, mesh = self.works("tetrahedra", self.write("a.msh", text))
+        self.assertEqual({name: len(nodes) for name, nodes in mesh.blocks.items()}, {"strut_one": 1, "rest": 1})
+        self.assertIn("block   all: all its tetrahedra are in other groups", said["no"])
+        np.testing.assert_array_equal(mesh.sets["side"], [0, 1, 3])
+        np.testing.assert_array_equal(mesh.sets["foot"], [0, 1, 2, 3])
+
+    def test_numbers_of_other_names_are_told_and_may_be_chosen(self):
+        self.mesh(cell_data=self.groups("material")).write(self.path("a.vtu"))
+        said, mesh = self.works("tetrahedra", self.path("a.vtu"))
+        self.assertEqual(list(mesh.blocks), ["body"])
+        self.assertIn("cell data 'material' (3 values); --groups material", said["not"])
+        _, mesh = self.works("tetrahedra", self.path("a.vtu"), "--groups", "material")
+        self.assertEqual(list(mesh.blocks), ["block_1", "block_2"])
+        self.refused("tetrahedra", "no cell data 'materials' .did you mean 'material'", self.path("a.vtu"), "--groups", "materials")
+
     def test_formats_with_numbers(self):
         for name, key in {"a.vtu": "CellEntityIds", "a.vtk": "CellEntityIds", "a.mesh": "medit:ref"}.items():
             with self.subTest(name):
@@ -1153,6 +1173,21 @@ class Tetrahedra(ToolTest):
         refused("line 9: .ELEMENT with ELSET=A, and in line 7 one without", ABAQUS + more)
         refused("ELSET=a, which is also in line 7", ABAQUS.replace("C3D4", "C3D4, elset=A") + more.replace("=A", "=a"))
         refused("ends .ELEMENT at the comment in line 9, and line 10 would", f"{ABAQUS}** the second\n2, 2, 5, 3, 4\n")
+
+    def test_what_meshio_reads_otherwise_than_nastran_is_refused(self):
+        def lines(kind, *last):
+            return "BEGIN BULK\n" + "".join(kind.format(n, *node) for n, node in enumerate(
+                [(0, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (*last, 0, 0, 1)], 1)) + "CTETRA,1,1,1,2,3,4\nENDDATA\n"
+
+        wide = "GRID*   {:<16}{:<16}{:<16.1f}{:<16.1f}*A\n*A      {:<16.1f}\n"
+        for kind in ("GRID,{},{},{}.,{}.,{}.\n", "GRID    {:<8}{:<8}{:<8.1f}{:<8.1f}{:<8.1f}\n"):
+            _, mesh = self.works("tetrahedra", self.write("a.bdf", lines(kind, 0)))
+            self.assertEqual(len(mesh.nodes), 4)
+            self.refused("tetrahedra", "line 5: GRID in the coordinate system 5, .*; expected the basic one",
+                         self.write("a.bdf", lines(kind, 5)))
+        self.refused("tetrahedra", "GRID. in the coordinate system 5", self.write("a.nas", lines(wide, 5)))
+        self.refused("tetrahedra", "line 1: GRDSET in the coordinate system 3", self.write("a.fem", "GRDSET,,3\n" + lines(kind, 0)))
+        self.refused("tetrahedra", "line 1: INCLUDE", self.write("a.bdf", "include 'nodes.bdf'\n" + lines(kind, 0)))
 
     def test_names_of_blocks_are_given(self):
         self.mesh(cell_data=self.groups("medit:ref")).write(self.path("a.mesh"))
