@@ -272,8 +272,8 @@ TEST(Values, BetweenLoadStepsAreTold) {
                 {"WARNING: Boundary Conditions > a > Value: reaches", "between two load steps", "10 load steps"},
                 value);
   }
-  for (const char* value :
-       {"1e-4*sin(1e6*t)", "5*t", "1e-4*exp(1e6*t) - 1e-4", "table(t, 0, 0, 1.5e-6, 1e-4, 5e-6, 0)"}) {
+  for (const char* value : {"1e-4*sin(1.2566370614e6*t)", "1e-4*sqrt(4e-6 - t)", "1e-4*sin(1e6*t)", "5*t",
+                            "1e-4*exp(1e6*t) - 1e-4", "table(t, 0, 0, 1.5e-6, 1e-4, 5e-6, 0)"}) {
     const std::string warnings = said_of(block(displacement("a", "foot", "z", value)), Loading::slow).warnings;
     EXPECT_EQ(warnings.find("between two load steps"), std::string::npos) << value;
   }
