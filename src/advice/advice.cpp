@@ -1,6 +1,7 @@
 #include "advice/advice.hpp"
 
 #include "advice/checks.hpp"
+#include "advice/lattice_axes.hpp"
 #include "mechanics/thin_members.hpp"
 #include "setup/blocks.hpp"
 #include "setup/contact.hpp"
@@ -63,7 +64,8 @@ Situation situation_of(const deck::Deck& deck, const Scene& scene) {
                       interactions_of(deck, cloud),
                       mean_spacings(cloud, scene.body.domain.communicator),
                       trajectories(scene, start, duration),
-                      thicknesses(scene.body.domain)};
+                      thicknesses(scene.body.domain),
+                      unevenness_of_lattices(scene.body)};
   set_surface_laws(scene.body, situation.interactions);
   return situation;
 }

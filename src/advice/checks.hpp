@@ -19,7 +19,8 @@ struct Situation {
   std::vector<contact::Interaction> interactions;  // as contact uses them
   std::vector<double> spacings;                    // mean spacing of each block, m
   std::vector<Trajectory> trajectories;            // of blocks
-  std::vector<double> members;  // thickness of the members of each block, spacings (mechanics/thin_members.hpp)
+  std::vector<double> members;     // thickness of the members of each block, spacings (mechanics/thin_members.hpp)
+  std::vector<double> unevenness;  // of the lattice of each block (lattice_axes.hpp)
 };
 
 // ---- without_effect.cpp

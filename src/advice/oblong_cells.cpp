@@ -78,13 +78,12 @@ std::string uneven_dilatation(const Situation& situation) {
       sums[b] += counts_of_strain(body, points[k]);
     }
   }
-  const std::vector<double> uneven = unevenness_of_lattices(body);
   std::ostringstream text;
   text.precision(3);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     body.domain.communicator.sum(std::span<double>(sums[b].data(), 9));
     if (!(sums[b].trace() > 0)) {
-      text << told_of_uneven_members(body.blocks[b], uneven[b]);
+      text << told_of_uneven_members(body.blocks[b], situation.unevenness[b]);
       continue;
     }
     for (const Mirror& mirror : body.domain.mirrors) {  // the images count, too

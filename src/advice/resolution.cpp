@@ -85,14 +85,13 @@ std::string thin_members(const Situation& situation) {
   const Body& body = situation.scene.body;
   const std::vector<double>& all = situation.members;
   const std::vector<bool> whole = of_whole_cells(body.domain);
-  const std::vector<double> uneven = unevenness_of_lattices(body);
   std::ostringstream text;
   text.precision(2);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const double spacing = body.domain.blocks[b].spacing;
     const double horizon = spacing > 0 ? body.domain.blocks[b].largest / spacing : 0;
     const std::string found =
-        told_of_thin(body.blocks[b], body.influence, horizon, all[b], whole[b], uneven[b] < uneven_from);
+        told_of_thin(body.blocks[b], body.influence, horizon, all[b], whole[b], situation.unevenness[b] < uneven_from);
     if (found.empty()) continue;
     text << "block '" << body.blocks[b].name << "': members are " << all[b] << " spacings thick (4 volume/surface); "
          << found << "\n";

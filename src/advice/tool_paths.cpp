@@ -63,7 +63,7 @@ bool change_later(const Scene& scene, double start, double duration) {
   bool any = false;
   scene.conditions.visit([&](const PrescribedMotion& one) {
     over_the_box(one.value, where(one.points, scene.body),
-               [&](const OfTime& of_time) { any = any || !goes_on(of_time, one.is_velocity, start, duration); });
+                 [&](const OfTime& of_time) { any = any || !goes_on(of_time, one.is_velocity, start, duration); });
   });
   return any;
 }

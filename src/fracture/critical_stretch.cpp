@@ -157,7 +157,7 @@ GradualCrack gradual_crack(const PulledLattice& lattice, double fracture_energy)
     stretches += bond.layers_below / (bond.opening * bond.opening), across += bond.layers_below;
   }
   double squares = 0;  // Σ g², 1/m²; both halves are alike
-  for (double& part : parts) part /= trace / 3, squares += 2 * part * part;
+  for (const double part : parts) squares += 2 * std::pow(part / (trace / 3), 2);
   const auto [bulk, shear] = lattice.moduli;
   const double young = 9 * bulk * shear / (3 * bulk + shear);
   double springs = 0;  // their energy over that of the layers: they fall alike

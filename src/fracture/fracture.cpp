@@ -157,13 +157,12 @@ void Fracture::start_rest(const Body& body) {
 
 double Fracture::largest_stretch(const Body& body) const {
   const Domain& domain = body.domain;
+  const auto is_gradual = [&](int i) {  // a bond of a gradual crack holds next to nothing when it breaks
+    const auto& damage = body.blocks[block_of_[i]].material.damage;
+    return damage && damage->is_gradual;
+  };
   double largest = 0;
   for (int i = 0; i < domain.owned; ++i) {
-    // A bond of a gradual crack holds next to nothing when it breaks.
-    const auto is_gradual = [&](int k) {
-      const auto& damage = body.blocks[block_of_[k]].material.damage;
-      return damage && damage->is_gradual;
-    };
     if (is_gradual(i)) continue;
     domain.families.for_each(i, [&](int j) {
       if (is_gradual(j)) return;

@@ -186,7 +186,8 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
     const std::string name = "all points > tool_" + std::to_string(tool) + "_reach";
     return changes_.same_conditions && std::ranges::find(missing, name) == missing.end();
   };
-  begin_from_here(deck, {goes_on_, changes_.same_conditions, keeps_velocities_}, knows_reaches, scene, communicator_);
+  begin_from_here(deck, {goes_on_, changes_.same_conditions, keeps_all_velocities()}, knows_reaches, scene,
+                  communicator_);
   const bool jumps = keeps_velocities_ && !changes_.after_equilibria && !changes_.masses.empty();
   const std::string other_laws = libraries.changed();
   return (facts_.note.empty() ? "" : "WARNING: " + facts_.note + "\n") +
@@ -198,7 +199,7 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
 
 std::string StartState::story(const deck::Deck& deck, const Scene& scene) const {
   const Energies stored = stored_energies(scene.body);
-  const bool replaced = !goes_on_ && has_initial_velocity(deck) && !(changes_.same_conditions && keeps_velocities_);
+  const bool replaced = has_initial_velocity(deck) && !keeps_all_velocities();
   std::ostringstream text, time;
   time.precision(17);  // to go on, Initial Time must be the same
   time << facts_.time;

@@ -37,6 +37,8 @@ class StartState {
   void spare_files(const deck::Deck& deck, deck::Problems& problems) const;
   void compare_sets(const deck::Deck& deck, const Body& body);
   bool steps_go_on(const deck::Deck& deck) const;
+  // True if no Initial Velocity of this deck replaces the velocities that the other run has left.
+  bool keeps_all_velocities() const { return goes_on_ || (changes_.same_conditions && keeps_velocities_); }
   bool takes_of_steps(const std::string& name) const;
   std::string story(const deck::Deck& deck, const Scene& scene) const;
 

@@ -284,8 +284,7 @@ void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::functi
   for (const deck::Condition& one : deck.conditions) {
     points.push_back(points_of(scene.body.domain.cloud, one.node_set));
     const auto* initial = std::get_if<InitialVelocity>(&one.kind);
-    const bool keeps = kept.steps || (kept.conditions && kept.velocities);
-    if (initial && !keeps && !deck.next_solver) initial->set_initial_state(points.back(), t, scene.body);
+    if (initial && !kept.velocities && !deck.next_solver) initial->set_initial_state(points.back(), t, scene.body);
   }
   set_reference_temperatures(scene.body, t);  // of those that were not heated before
   if (!kept.steps || !kept.conditions) end_rigid_motion_of_heated(scene.body);

@@ -23,8 +23,8 @@ struct Kept {
 };
 
 // Collective. The same scene, whose body is now in the state of another run (Start From): gives it initial velocities,
-// unless its steps go on or its conditions with its velocities, and tools their reaches, unless knows_reaches(its index
-// in the deck). Throws Error on all ranks for displacements that would jump.
+// unless it keeps its own, and tools their reaches, unless knows_reaches(its index in the deck). Throws Error on all
+// ranks for displacements that would jump.
 void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::function<bool(int)>& knows_reaches,
                      Scene& scene, const Communicator& communicator);
 

@@ -24,6 +24,12 @@ namespace strut {
 
 namespace {
 
+// The mesh in memory; without points where this rank has none.
+const io::Mesh& mesh_here(const io::Mesh* in_memory) {
+  static const io::Mesh none;
+  return in_memory ? *in_memory : none;
+}
+
 const std::string mesh_key = "Discretization > Input Mesh File";  // in messages, also for a mesh in memory
 
 // True if surface contact or layers of a profile need the faces of cells; points at nodes lie on them.
@@ -175,7 +181,7 @@ PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, c
   if (discretization.type == deck::MeshType::text) return io::read_text(discretization.mesh, communicator);
   const PointsAt at = discretization.points == deck::Points::nodes ? PointsAt::nodes : PointsAt::elements;
   if (discretization.type == deck::MeshType::memory)
-    return io::points_of(in_memory ? *in_memory : io::Mesh(), communicator, at, with_cells, planes, &apart);
+    return io::points_of(mesh_here(in_memory), communicator, at, with_cells, planes, &apart);
   return io::read_exodus(discretization.mesh, communicator, at, with_cells, planes, &apart);
 }
 
@@ -223,7 +229,7 @@ std::vector<io::UnmatchedFaces> unmatched_faces(const deck::Deck& deck, const Co
   if (!has_fits || discretization.points == deck::Points::nodes) return {};
   if (discretization.type == deck::MeshType::exodus) return io::unmatched_faces(discretization.mesh, communicator);
   if (discretization.type != deck::MeshType::memory) return {};
-  return io::unmatched_faces(in_memory ? *in_memory : io::Mesh(), communicator);
+  return io::unmatched_faces(mesh_here(in_memory), communicator);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@
 
 namespace strut {
 
-// Whether held points may stay at their positions in the mesh although an Initial Displacement moves the body.
+// yes: points that a condition holds at their positions in the mesh may stay there, although an Initial Displacement
+// moves the rest of the body.
 enum class MayRest { no, yes };
 
 // Collective. Finds points whose displacement at the initial time is not the one that a condition prescribes for this

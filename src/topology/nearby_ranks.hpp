@@ -31,6 +31,7 @@ NearbyRanks nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector>
 template <class Record>
 std::vector<Record> from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,
                                       std::span<const Record> records, double reach, const Communicator& communicator) {
+  if (communicator.size() == 1) return {};
   const NearbyRanks targets = nearby_ranks(box, places, reach, communicator);
   return Routes(communicator, targets.ranks).there([&](int k) { return records[targets.places[k]]; });
 }

@@ -34,9 +34,10 @@ const TextKey checkpoint({.name = "Checkpoint",
 
 const OptionalKey<bool> keeps_velocities(
     {.name = "Keep Velocities",
-     .meaning = "true: points begin with the velocities of the checkpoint; false: at rest. Default: true after "
-                "explicit steps, false after equilibria. An Initial Velocity replaces both, but kept velocities only where "
-                "conditions differ."});
+     .meaning =
+         "true: points begin with the velocities of the checkpoint; false: at rest. Default: true after "
+         "explicit steps, false after equilibria. An Initial Velocity replaces both, but kept velocities only where "
+         "conditions differ."});
 
 }  // namespace
 

@@ -74,8 +74,8 @@ TEST(Condition, TableThatEndsAtTheFinalTimeDoesNotStopTheMotion) {
   }
 }
 
-// The same of a velocity, whether its value has fallen at the final time, falls after it, or stays as a table's last
-// row.
+// A prescribed velocity moves its points on at the final time, if its value falls to 0 then, if it falls later, and if
+// the last row of its table is at that time.
 TEST(Condition, VelocityThatEndsAtTheFinalTimeDoesNotStopTheMotion) {
   const auto end_of = [](const std::string& value) {
     const RunFolder folder;

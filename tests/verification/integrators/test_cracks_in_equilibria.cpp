@@ -165,7 +165,7 @@ struct Strip : Loaded {
     return body.domain.communicator.sum(sum) / 2 * all / across;
   }
 
-  // What cells of this rank whose stress has fallen to nothing have dissipated, J.
+  // The energies (J) that the opened cells of this rank have dissipated; the stress of an opened cell has fallen to 0.
   std::vector<double> opened_cells() const {
     const MaterialBlock& block = body.blocks[0];
     std::vector<double> all;
