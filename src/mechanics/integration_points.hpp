@@ -59,13 +59,21 @@ class CellPoints {
   MaterialPoint operator[](std::size_t place) const {
     MaterialPoint point;
     Symmetric stretch;
-    for (int c = 0; c < 6; ++c) {
-      stretch[c] = numbers_.at(place, c);
-      point.rotation.number(c) = numbers_.at(place, rotation + c);
-      point.stress[c] = numbers_.at(place, stress + c);
-    }
+    for (int c = 0; c < 6; ++c) stretch[c] = numbers_.at(place, c);
+    point.rotation = rotation_at(place);
+    point.stress = stress_at(place);
     point.deformation_gradient = point.rotation.tensor() * to_tensor(stretch);
     return point;
+  }
+  Rotation rotation_at(std::size_t place) const {
+    Rotation R;
+    for (int c = 0; c < 6; ++c) R.number(c) = numbers_.at(place, rotation + c);
+    return R;
+  }
+  Symmetric stress_at(std::size_t place) const {
+    Symmetric of_place;
+    for (int c = 0; c < 6; ++c) of_place[c] = numbers_.at(place, stress + c);
+    return of_place;
   }
   void set(std::size_t place, const MaterialPoint& point) {
     const auto numbers = numbers_of(point);

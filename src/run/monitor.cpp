@@ -177,7 +177,7 @@ void Monitor::check_step(const CentralDifference& solver) {
 
 void Monitor::check_interpenetration(double time, const contact::Contact& contact) {
   if (!contact.any() || limits_.interpenetration >= 1 || is_silent(interpenetration) || time < next_look_) return;
-  next_look_ = time + pause_;
+  next_look_ = time + pause();
   const auto found = contact::find_interpenetration(body_.domain, contact, limits_.interpenetration);
   if (!found) return;
   std::ostringstream text;
@@ -195,7 +195,7 @@ void Monitor::check_interpenetration(double time, const contact::Contact& contac
 
 void Monitor::check_undeclared(double time, const contact::Contact& contact) {
   if (told_[undeclared] || time < next_undeclared_) return;
-  next_undeclared_ = time + costly * pause_;
+  next_undeclared_ = time + costly * pause();
   const auto found = contact::find_undeclared(body_.domain, contact);
   if (!found) return;
   std::ostringstream text;
@@ -219,7 +219,7 @@ void Monitor::check_undeclared(double time, const contact::Contact& contact) {
 void Monitor::check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools,
                           Steps steps) {
   if (tools.empty() || time < next_tools_) return;
-  next_tools_ = time + pause_;
+  next_tools_ = time + pause();
   if (!told_[meeting]) check_meeting(time, conditions, tools);
   if (told_[crossing]) return;
   const std::vector<Vector> places = present_places(body_.domain);
@@ -287,7 +287,7 @@ void Monitor::warn(What what, const std::string& text) {
 
 void Monitor::check_energy(const Ledger& ledger, bool last) {
   const double error = ledger.balance_error;
-  next_energy_ = ledger.time + pause_;
+  next_energy_ = ledger.time + pause();
   if (++ledgers_ <= first_ledgers && !last && std::isfinite(error)) return;
   const double limit = (ledger.gained > 0 ? of_gains : 1) * limits_.balance_error;
   if (!std::isfinite(error)) {

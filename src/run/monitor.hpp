@@ -2,6 +2,7 @@
 // interpenetrate.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -22,7 +23,8 @@ class Monitor {
       : limits_(limits), pause_(duration / looks), body_(body), tell_(std::move(tell)) {}
 
   // Collective. Each check throws Error on all ranks if a limit is exceeded, or warns once if the deck says that the
-  // run continues. Costly searches are made some two hundred times in a run (`looks`).
+  // run continues. All but check_step cost about as much as a step: they are made some two hundred times in a run
+  // (`looks`), and not more often than every ten steps.
   void check_step(const CentralDifference& solver);    // after advance_velocity()
   void check_energy(const Ledger& ledger, bool last);  // `last`: of the run; it counts, however early it is
   // True if the ledger must be checked, also if nothing is written: the balance error is relative to the largest energy
@@ -62,7 +64,9 @@ class Monitor {
     count
   };
   static constexpr double looks = 200;  // checks per run of energies, interpenetration and tools between points
+  static constexpr double fewest_steps = 10;  // between these checks
   static constexpr double costly = 10;  // one of this many checks is for undeclared contact
+  double pause() const { return std::max(pause_, fewest_steps * dt_); }  // s, between checks
   void passed(What what, const std::string& text);
   // True if this limit has nothing more to say. A run that continues may stop where the one before it went on.
   bool is_silent(What what) const { return told_[what] && !limits_.stops; }
@@ -74,7 +78,8 @@ class Monitor {
   void check_stretch(double time);
 
   deck::Watch limits_;
-  double pause_;  // s, between checks
+  double pause_;   // s, a part of the run's duration
+  double dt_ = 0;  // s, of the last step; none in equilibria
   // s
   double next_look_ = std::numeric_limits<double>::lowest(), next_undeclared_ = next_look_, next_tools_ = next_look_,
          next_energy_ = next_look_;

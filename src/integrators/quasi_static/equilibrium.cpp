@@ -400,7 +400,7 @@ double Equilibrium::largest_load() const {
       const std::size_t place = block.place(static_cast<int>(n / 4), static_cast<int>(n % 4));
       const double left = 1 - block.state_of<materials::Brittle>(place).dissipated * law->width / law->fracture_energy;
       if (left < nearly_open) continue;
-      const double most = materials::CockcroftLatham::largest_principal(block.cells[place].stress);
+      const double most = materials::CockcroftLatham::largest_principal(block.cells->stress_at(place));
       largest = std::max(largest, most / (strengths_[b] * left));
     }
   }

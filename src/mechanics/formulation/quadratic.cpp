@@ -210,9 +210,9 @@ void diagnose_cell(Body& body, const MaterialBlock& block, int k, const Tensor& 
   point.rotation = Rotation(R);
   Tensor stress = Tensor::Zero();
   for (int q = 0; q < 4; ++q) {
-    const MaterialPoint there = block.cells[block.place(k, q)];
-    const Tensor turned = R.transpose() * there.rotation.tensor();
-    stress += 0.25 * turned * to_tensor(there.stress) * turned.transpose();
+    const std::size_t place = block.place(k, q);
+    const Tensor turned = R.transpose() * block.cells->rotation_at(place).tensor();
+    stress += 0.25 * turned * to_tensor(block.cells->stress_at(place)) * turned.transpose();
   }
   point.stress = symmetric_part(stress);
 }
