@@ -118,7 +118,7 @@ class Contact {
     Vector mean_velocity = Vector::Zero();  // m/s
     double used = 0;     // in each step: bound of the fraction of a skin distance that a point has used since a search
     bool meets = false;  // in each step: points whose bonds have broken since the search are near each other
-    bool check_due = true;  // `used` is near 1: the skin distances must be checked in the next step
+    bool check_pending = true;  // `used` is near 1: the skin distances must be checked in the next step
     ForceResult result = {};
     std::vector<Load> loads = {};       // of pairs.owned, if the model is one of points
     std::vector<Vector> friction = {};  // N, on pairs.owned
@@ -138,7 +138,7 @@ class Contact {
   static bool breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair);
   void check(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   // Collective.
-  void check_where_due(const Kinematics& kinematics, double dt);
+  void check_where_pending(const Kinematics& kinematics, double dt);
   void add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding, std::vector<Vector>& force_density);
   static void add_normal_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair,
                                 std::vector<Vector>& force_density);

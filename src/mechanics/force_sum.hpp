@@ -106,7 +106,7 @@ struct ForceSum {
 
   void ordinary(Part part) const {
     for (const MaterialBlock& block : body.blocks) {
-      if (!is_due(block, bodies) || !block.feels_ordinary) continue;
+      if (!is_active(block, bodies) || !block.feels_ordinary) continue;
       over_groups(body, LaneGroups(body, block, part), [&](const LaneGroup& group, auto weight) {
         const bonds::OfCluster family{*group.cluster};
         const auto force = bonds::ordinary_force(family, body.domain.sites.data(), states.scalars.data(), weight,
@@ -118,7 +118,7 @@ struct ForceSum {
 
   void quadratic(Part part) const {
     for (const MaterialBlock& block : body.blocks) {
-      if (!is_due(block, bodies) || !block.feels_quadratic) continue;
+      if (!is_active(block, bodies) || !block.feels_quadratic) continue;
       over_groups(body, LaneGroups(body, block, part), [&](const LaneGroup& group, auto weight) {
         add_to(group, quadratic_far_forces(body, *group.cluster, states, weight), result);
       });

@@ -121,7 +121,7 @@ void CentralDifference::advance_position(bool with_diagnostics) {
   StepReport report = advance_stress(body_, dt(), with_diagnostics, time_, breaking());
   if (fracture_) fracture_->finish_criteria(body_);
   take_worse(between.failure, report.failure);
-  if (length_.levels_due()) reassign_levels(report, pushed_now());
+  if (length_.levels_pending()) reassign_levels(report, pushed_now());
   sum_all_forces(with_diagnostics);
   agree(report);
 }
@@ -329,7 +329,7 @@ void CentralDifference::agree(const StepReport& report) {
   const auto severity = static_cast<Severity>(agreed[0]);
   went_on_ = severity == passable;
   warning_.clear();
-  if (severity != harmless) tell(report, no_number);
+  if (severity != harmless) explain(report, no_number);
 }
 
 // The number of bonds of this rank's points that have broken since the last call.
@@ -339,7 +339,7 @@ std::int64_t CentralDifference::new_breaks() {
 }
 
 // Collective. Throws Error unless the run may continue with this report; else sets the warning.
-void CentralDifference::tell(const StepReport& report, const std::string& no_number) {
+void CentralDifference::explain(const StepReport& report, const std::string& no_number) {
   std::ostringstream text;
   if (!no_number.empty()) {
     text << no_number;

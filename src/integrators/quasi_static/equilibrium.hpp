@@ -103,7 +103,7 @@ class Equilibrium {
   Body& body() { return body_; }
   const SeparateParts& parts() const { return parts_; }
   const Constraints& constraints() const { return *constraints_; }
-  Vector start(int i) const { return committed_.place(i); }
+  Vector start(int i) const { return committed_.position(i); }
   const contact::Contact& contact() const { return contact_; }
   contact::Contact take_contact() { return std::move(contact_); }
   std::optional<Fracture> take_fracture();
@@ -120,7 +120,7 @@ class Equilibrium {
   Reactions reactions(int conditions) const;
 
  private:
-  std::vector<Vector> step_way() const;  // displacement increment of the owned points in this load step, m
+  std::vector<Vector> step_displacement() const;  // displacement increment of the owned points in this load step, m
   // `time`: at the end of the step.
   StepReport advance(double dt, double time, bool with_diagnostics) {
     return advance_by_any_step(body_, dt, time, with_diagnostics, fracture_ ? &*fracture_ : nullptr);
@@ -156,7 +156,7 @@ class Equilibrium {
   Field outer_, outer_before_;                  // loads and reactions, N; at the start of the step
   Field left_;                                  // N, that bonds or cells lost at its start; empty without
   Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors or periods on this rank's points
-  std::vector<Vector> looked_at_;               // positions at the last evaluation of contact, m
+  std::vector<Vector> positions_of_contact_;    // positions at the last evaluation of contact, m
   std::vector<PointTangent> tangents_;
   std::vector<Site> directions_;
 };

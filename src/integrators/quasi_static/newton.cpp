@@ -69,9 +69,9 @@ void Newton::damp_less(double factor) {
 
 void Newton::damp_more(double factor) { damping_ = std::max(first_damping, factor * damping_); }
 
-void Newton::tell_once(const std::string& trouble) {
-  if (trouble.empty() || told_trouble_) return;
-  told_trouble_ = true;
+void Newton::warn_once(const std::string& trouble) {
+  if (trouble.empty() || has_warned_) return;
+  has_warned_ = true;
   if (observer_.load_steps) observer_.load_steps("WARNING: " + trouble);
 }
 
@@ -87,7 +87,7 @@ void Newton::precondition(const BlockRows& matrix, const std::vector<Tensor>& ex
   if (is_factorized_) {
     return krylov_.precondition_by([this](const Field& right, Field& x) { factor_->solve(right, x); });
   }
-  tell_once(krylov_.precondition(matrix, rigid_motions(body)));
+  warn_once(krylov_.precondition(matrix, rigid_motions(body)));
 }
 
 void Newton::renew_preconditioner() {
@@ -104,7 +104,7 @@ void Newton::renew_preconditioner() {
   spring_ = mean_spring(matrix);
   renew_drag(matrix, extra);
   damping_when_new_ = damping_;
-  preconditioner_due_ = false;
+  preconditioner_pending_ = false;
   products_when_new_ = 0;
 }
 
@@ -121,16 +121,17 @@ Krylov::Outcome Newton::with_another_preconditioner(const std::function<Krylov::
 
 void Newton::serialize(Archive& archive) { archive.number("with_factors", wants_factors_); }
 
-// The step that cancels the forces by the tangent, with `way` along held directions: Π K Π v = Π (r − K way).
-int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) {
+// The step that cancels the forces by the tangent, with `remaining` along held directions: Π K Π v = Π (r − K
+// remaining).
+int Newton::correct(const Field& remaining, bool moves, double accuracy, Field& step) {
   equilibrium_.linearize();
   const bool changed = equilibrium_.contact_has_changed();
-  if (preconditioner_due_ || (changed && !is_factorized_) || damping_has_changed()) renew_preconditioner();
+  if (preconditioner_pending_ || (changed && !is_factorized_) || damping_has_changed()) renew_preconditioner();
   const Constraints& held = equilibrium_.constraints();
   Field right = equilibrium_.residual();
   if (moves) {
-    Field pull(way.size());
-    equilibrium_.apply(way, pull);
+    Field pull(remaining.size());
+    equilibrium_.apply(remaining, pull);
     for (std::size_t i = 0; i < right.size(); ++i) right[i] -= pull[i];
     held.remove(right);
   }
@@ -159,9 +160,10 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
   });
   if (!outcome.converged) damp_more(where_unstable);
   held.remove(step);
-  for (std::size_t i = 0; i < step.size(); ++i) step[i] = units[parts.of(static_cast<int>(i))] * step[i] + way[i];
+  for (std::size_t i = 0; i < step.size(); ++i) step[i] = units[parts.of(static_cast<int>(i))] * step[i] + remaining[i];
   if (products_when_new_ == 0) products_when_new_ = std::max(10, outcome.iterations);
-  preconditioner_due_ = outcome.iterations > wear * (is_factorized_ ? factor_->products_worth() : products_when_new_);
+  preconditioner_pending_ =
+      outcome.iterations > wear * (is_factorized_ ? factor_->products_worth() : products_when_new_);
   return outcome.iterations;
 }
 
@@ -192,7 +194,7 @@ Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
   return stop.left;
 }
 
-void Newton::tell(const EquilibriumSearch& search, int products) const {
+void Newton::report(const EquilibriumSearch& search, int products) const {
   if (!observer_.iterations) return;
   char line[160];
   std::snprintf(line, sizeof line, "  iteration %2d  %3d products  %.3e N left of %.3e N, damping %.0e%s",
@@ -204,8 +206,8 @@ void Newton::tell(const EquilibriumSearch& search, int products) const {
 EquilibriumSearch Newton::solve(const Tolerance& tolerance) {
   EquilibriumSearch search;
   search.left = equilibrium_.evaluate();
-  Field way = equilibrium_.constraints().way_left(equilibrium_.body()), step;
-  bool moves = is_a_motion(way, equilibrium_.body());
+  Field remaining = equilibrium_.constraints().remaining_displacement(equilibrium_.body()), step;
+  bool moves = is_a_motion(remaining, equilibrium_.body());
   double before = search.left.norm;
   damping_ = 0, damped_ = 0;
   for (; search.iterations < tolerance.most_iterations && !search.left.failed; ++search.iterations) {
@@ -215,13 +217,13 @@ EquilibriumSearch Newton::solve(const Tolerance& tolerance) {
     const double enough = 0.3 * tolerance.relative * search.left.scale / search.left.norm;
     const double accuracy = moves ? of_first : std::clamp(std::max(0.5 * gain * gain, enough), finest, coarsest);
     before = search.left.norm;
-    const int products = correct(way, moves, accuracy, step);
+    const int products = correct(remaining, moves, accuracy, step);
     search.evaluations += products;
     search.left = advance(search.left, step, moves);
-    tell(search, products);
+    report(search, products);
     search.interrupted = equilibrium_.body().domain.communicator.any(observer_.stop_requested());
     if (search.interrupted) return search;
-    std::fill(way.begin(), way.end(), Vector::Zero());
+    std::fill(remaining.begin(), remaining.end(), Vector::Zero());
     moves = false;
   }
   search.converged = is_balanced(search.left, tolerance);
