@@ -107,7 +107,7 @@ struct PointFields {
                                                 .persistent = true,
                                                 .width = 1}},
                                               When::if_used);
-  // Levels of owned points and ghosts, empty without subcycling. Multi-time-stepping chooses and saves them.
+  // Time-step levels of owned points and ghosts; empty without substeps. MultiTimeStepping chooses and saves them.
   PointField<std::uint8_t> time_levels =
       fields.of_points<std::uint8_t>({.name = "time_levels",
                                       .unit = "1",
@@ -121,8 +121,8 @@ struct Body : PointFields {
   Influence influence = Influence::one;
   std::vector<MaterialBlock> blocks;  // in the order of domain.cloud.block_names
 
-  std::vector<HeatedPoints> heated;        // by conditions
-  std::vector<double> expansion_of_sites;  // ε of owned points and ghosts, where bonds may break
+  std::vector<HeatedPoints> heated;        // points whose temperature a condition prescribes
+  std::vector<double> expansion_of_sites;  // thermal strain ε of owned points and ghosts; empty if not needed
 
   ForceStates force_states;  // of owned points and ghosts
 
@@ -132,14 +132,14 @@ struct Body : PointFields {
   std::vector<std::shared_ptr<LatticeSums>> lattice_sums;
 
   int owned() const { return domain.owned; }
-  // True if the point takes part in a substep of this level.
+  // True if the stress of the point advances in the substeps of this time-step level.
   bool is_active(int i, int level) const { return time_levels.empty() || time_levels[i] >= level; }
-  // The point's own step as a fraction of the step of a level.
+  // Length of the point's own step over that of a step of `level`, 2^(level − h).
   double step_fraction(int i, int level = 0) const {
     return time_levels.empty() ? 1 : power_of_two(level - time_levels[i]);
   }
   const MaterialBlock& block_of(int i) const { return blocks[domain.cloud.blocks[i]]; }
-  // Energy of the stabilization, J/m³; current when the residual is.
+  // Energy of the stabilization springs, J/m³ of reference volume; current after a step with diagnostics.
   double stabilization_work(int i) const {
     const bool in_bonds = block_of(i).has_springs(ResidualKind::both_gradients);
     return in_bonds ? bond_work[i] : 0.5 * points[i].stabilization * residual[i];
@@ -148,7 +148,7 @@ struct Body : PointFields {
     return std::any_of(blocks.begin(), blocks.end(), [&](const MaterialBlock& b) { return b.has_springs(residual); });
   }
   double mass(int i) const { return density[i] * domain.volume(i); }
-  // Fraction of its cell's inertia that is the point's own; below 1 where a condition assigns a part to another body.
+  // Mass of the point over that of its cell: below 1 where a non-reflecting end takes off a part (setup/open_ends.cpp).
   double inertia_fraction(int i) const {
     return density[i] / (block_of(i).material.density * (mass_scale.empty() ? 1 : mass_scale[i]));
   }

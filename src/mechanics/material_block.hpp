@@ -51,7 +51,7 @@ struct MaterialBlock {
   int interior = 0;         // number of points that need no ghost; they come first
 
   FieldSet fields;
-  // The law's state variables, number by number.
+  // The law's state variables at all integration points, one row for each variable.
   FieldRef<small::Tiles> state = fields.add<small::Tiles>(At::integration_point, {});
   // Integration points of quadratic correspondence; other formulations use body.points.
   FieldRef<CellPoints> cells = fields.add<CellPoints>(At::integration_point, CellPoints::parts(), When::if_used);
@@ -67,7 +67,7 @@ struct MaterialBlock {
   PointField<ViscousPoint> viscous =
       fields.add<std::vector<ViscousPoint>>(At::integration_point, ViscousPoint::parts(), When::if_used);
 
-  // The formulations of its points and of all their neighbors: forces are summed over these.
+  // True if a point of the block, or a neighbor of one, has this formulation: forces are summed over these.
   bool feels_correspondence = false, feels_ordinary = false, feels_quadratic = false;
 
   // The body moves rigidly, without strain (rigid_motion.hpp), so that nothing is computed.

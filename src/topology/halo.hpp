@@ -61,14 +61,14 @@ class Halo {
     finish(values);
   }
 
-  // With another reflection: the type Vector does not show whether it is a position or a direction.
+  // The same with the reflection `reflected`: the type Vector does not show whether it is a position or a direction.
   template <auto reflected, class Value>
   void exchange(std::vector<Value>& values) const {
     start(values);
     finish(values.data(), sizeof(Value), sizeof(Value), by_value<reflected, Value>);
   }
 
-  // The same for present positions alone, or for directions stored in their place.
+  // The same for the present positions of the sites alone, or for directions that are stored instead of them.
   void start_positions(const std::vector<Site>& sites) const { start(place(sites), sizeof(Site), sizeof(Vector)); }
   template <auto reflected = reflect_position>
   void finish_positions(std::vector<Site>& sites) const {

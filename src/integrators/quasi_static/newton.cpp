@@ -21,8 +21,9 @@ constexpr double of_first = 1e-3, coarsest = 3e-2, finest = 1e-4;
 constexpr double of_touch = 1e-2;
 constexpr int most_products = 400;
 
-// Damping: its first value, and the value below which it ends; its factors if the tangent is not positive along the
-// step, if only a short part of the step is downhill, and if the forces decrease quickly or slowly.
+// Damping (over the stiffness of a point) begins at first_damping and ends below least_damping. It is multiplied by
+// where_unstable if the tangent is not positive along the step, by where_short if the line search takes only a short
+// part of the step, and by where_quick or where_slow as the forces decrease quickly or slowly.
 constexpr double first_damping = 1e-2, least_damping = 1e-5;
 constexpr double where_unstable = 10, where_short = 4, where_quick = 0.1, where_slow = 0.4;
 constexpr double short_part = 0.1, long_part = 0.5;  // of a step
@@ -33,8 +34,8 @@ constexpr int most_products_damped = 200;            // more would cost more tha
 // of multigrid do not represent a strut that flows or slides. Below it multigrid is faster (docs/decisions.md).
 constexpr int most_of_multigrid = 200;
 
-// A multigrid hierarchy is kept until systems take this many times as long as just after it was made; factors until
-// they take this many times as long as new factors would.
+// A multigrid hierarchy is renewed once a system takes this many times the products of the first one after it was made;
+// factors are renewed once a system takes this many times the products that new factors are worth.
 constexpr double wear = 1.5;
 
 }  // namespace
@@ -52,7 +53,7 @@ double Newton::mean_spring(const BlockRows& matrix) const {
   return sums[0] / sums[1];
 }
 
-// Stiffness of damping by the body's own stiffness alone: with that of contact it would prevent sliding, too.
+// Damping takes the stiffness of the body alone: with the stiffness of contact it would prevent sliding, too.
 void Newton::renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra) {
   drag_.resize(extra.size());
   for (std::size_t i = 0; i < extra.size(); ++i) {
@@ -121,8 +122,9 @@ Krylov::Outcome Newton::with_another_preconditioner(const std::function<Krylov::
 
 void Newton::serialize(Archive& archive) { archive.number("with_factors", wants_factors_); }
 
-// The step that cancels the forces by the tangent, with `remaining` along held directions: Π K Π v = Π (r − K
-// remaining).
+// Solves for the step v + u (m) that cancels the residual r (N) by the tangent K (N/m). u is `remaining`, the rest of
+// the prescribed motion; v is along free directions, to which Π projects: Π K Π v = Π (r − K u). Returns the number of
+// iterations.
 int Newton::correct(const Field& remaining, bool moves, double accuracy, Field& step) {
   equilibrium_.linearize();
   const bool changed = equilibrium_.contact_has_changed();
@@ -145,7 +147,8 @@ int Newton::correct(const Field& remaining, bool moves, double accuracy, Field& 
     held.remove(out);
     for (std::size_t i = 0; i < in.size(); ++i) out[i] += spring_ * (in[i] - free[i]);
   };
-  // Forces of different size are solved for alike: no stiffness couples the parts, so each has its own unit.
+  // No stiffness couples separate parts of the body. Each part has its own unit of force, so that small forces in one
+  // part are found as accurately as large ones in another.
   const SeparateParts& parts = equilibrium_.parts();
   std::vector<double> units(parts.count(), 1);
   if (parts.count() > 1) units = parts.norms(right, equilibrium_.body().domain.communicator);

@@ -42,12 +42,12 @@ class Newton {
   const Observer& observer_;
   Krylov krylov_;
   std::optional<TangentFactor> factor_;  // made once multigrid takes too many products (wants_factors_)
-  double spring_ = 1;                    // N/m, for held directions in the linear systems: as stiff as others
+  double spring_ = 1;                    // N/m, diagonal of the linear systems in held directions: as stiff as others
   int products_when_new_ = 0;
   bool preconditioner_pending_ = true, wants_factors_ = false, is_factorized_ = false;
   bool has_warned_ = false;
 
-  // Damping: a spring damping_ · drag_ from each point to its start of the iteration; it does not enter the residual.
+  // Damping adds a spring of stiffness damping_ · drag_ (N/m) to each point in the linear systems, not in the residual.
   double damping_ = 0, damping_when_new_ = 0;
   std::vector<double> drag_;  // N/m: stiffness of a point by its near neighbors
   int damped_ = 0;            // iterations with damping in this search

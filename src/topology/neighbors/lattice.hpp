@@ -25,12 +25,12 @@ struct LatticeFrame {
   Vector spacing = Vector::Ones();  // m
   double horizon = 0;               // m, of all points of the body
   int body = 0;                     // BlockBonds::body
-  bool wanted = false;              // even if lists were faster
-  bool loses_bonds = false;         // lists of its points exist, too
+  bool wanted = false;              // use it even if lists are faster
+  bool loses_bonds = false;         // its bonds may break, so its points have lists, too
 
   Eigen::Array3i cell_of(const Vector& X) const;
   bool has(const Vector& X) const;  // the point is at a cell
-  void make_room();                 // for images of points before the origin, within the horizon
+  void make_room();                 // moves the origin back, so that images of points within the horizon have cells
 };
 
 // Collective. The bodies whose points are on a lattice. Excluded: coordinates off by more than 1e-9 spacings; horizons
