@@ -57,9 +57,9 @@ class Equilibrium {
   // condition is not finite.
   void begin(double t, double dt);
 
-  // Collective, after commit(). Breaks the bonds that are beyond their limit, at the same positions, and lets the
-  // stress of gradual cracks fall, whose damage trials hold. If any, it begins a step without motion of conditions: the
-  // forces that are lost are held at first, and fade.
+  // Collective; after commit(). Breaks the bonds that are beyond their limit and lets the stress of gradual cracks
+  // fall, both at the same positions; trials do neither. If there are any, this begins a load step at constant
+  // conditions, in which the lost forces fade from their full value to zero.
   GaveWay give_way();
   // Collective. The largest stretch of a bond over the one at which it breaks, in the last trial; 0 if none breaks.
   double largest_stretch() const { return breaks_ ? fracture_->largest_stretch(body_) : 0; }
@@ -144,7 +144,7 @@ class Equilibrium {
   SeparateParts parts_;
   ToolContact tools_;
   bool breaks_ = false;            // bonds break, and cells soften, between trials
-  std::vector<double> strengths_;  // of gradual cracks by blocks, Pa; in trials laws have none, which holds the damage
+  std::vector<double> strengths_;  // of gradual cracks by blocks, Pa; laws get none in trials, so damage does not grow
   Committed committed_;
   std::optional<Constraints> constraints_;
   double t_ = 0, dt_ = 0;
@@ -154,7 +154,7 @@ class Equilibrium {
   Field inner_;                                 // N, of the body alone
   Field forces_before_;                         // N, of the committed state
   Field outer_, outer_before_;                  // loads and reactions, N; at the start of the step
-  Field left_;                                  // N, that bonds or cells lost at its start; empty without
+  Field left_;                                  // N: lost by bonds or cells at the start of the step; empty if none
   Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors or periods on this rank's points
   std::vector<Vector> positions_of_contact_;    // positions at the last evaluation of contact, m
   std::vector<PointTangent> tangents_;

@@ -1,5 +1,5 @@
-// SIMD: several integration points, one per lane: from deformation gradients to rotations, stretches and stresses. A
-// point by correspondence is its own integration point; the cell of a point by quadratic correspondence has four.
+// Computes rotations, stretches and stresses from deformation gradients, for several integration points at once, one
+// per SIMD lane. A point by correspondence is its own integration point; a cell by quadratic correspondence has four.
 #pragma once
 
 #include <array>
@@ -156,10 +156,10 @@ struct Deformed {
   LaneTensor F;
   Polar<Lanes> polar;
   LaneSymmetric inverse_stretch;
-  Lanes J;               // 0 for those that carry no stress
+  Lanes J;               // det F; 0 for points that carry no stress
   LaneSymmetric rates;   // zero if the step has no length
   LaneSymmetric stress;  // unrotated, with the viscous pressure
-  Lanes stiffness;       // M, Pa; 0 for those that have failed
+  Lanes stiffness;       // M, Pa; 0 for points that have failed
 };
 
 // Calls the law of one block for several integration points, one per lane.

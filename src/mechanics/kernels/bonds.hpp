@@ -279,7 +279,7 @@ inline ScalarOf<Family> squared_residual(const Family& family, const Site* sites
 
 // ---- The residual of both ends' gradients --------------------------------------------------------------------------
 
-// F, C and the fraction of the step of the points.
+// F, C and the factor on the force of the points (GradientState).
 template <class T>
 struct OwnGradient {
   Tensor3<T> F;
@@ -308,8 +308,9 @@ OwnGradient<ScalarOf<Family>> own_gradient(const Family& family, const GradientS
   return own;
 }
 
-// Calls visit(ω V_j t without the fraction, z, ξ, fraction) for each bond of a family, where t is the force of the
-// stabilization S at `kind`. It acts in the steps of the end of the lower time-step level, so with the larger fraction.
+// Calls visit(ω V_j t, z, ξ, factor) for each bond of a family: t is the force of the stabilization S at `kind`, which
+// the visit multiplies by the factor. A spring acts in the steps of its end with the lower time-step level, so the
+// larger factor of both ends counts.
 template <class S, class Family, class Weight, class Visit>
 inline void over_residuals(std::size_t kind, const Family& family, const Site* places, const GradientState* gradients,
                            Weight weight, Visit&& visit) {
