@@ -26,6 +26,7 @@ constexpr Check checks[] = {
     flat_families,
     unknown_gradients,
     unequal_horizons,
+    points_off_lattices,
     contact_at_mirrors,
     filled_tools,
     thin_tools,

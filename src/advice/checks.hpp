@@ -119,6 +119,9 @@ std::string unknown_gradients(const Situation& situation);
 // by the mean gradient, and those that are bonded to others of other horizons.
 std::string unequal_horizons(const Situation& situation);
 
+// A warning for each block, not by quadratic correspondence, with points whose neighbors are off a lattice.
+std::string points_off_lattices(const Situation& situation);
+
 // A warning for the blocks with points at nodes that touch by surfaces and are so narrow that the contact
 // is weak everywhere.
 std::string narrow_surfaces_of_nodes(const Situation& situation);
@@ -129,7 +132,8 @@ std::string narrow_surfaces_of_nodes(const Situation& situation);
 // direction: by how much only where no surface is near.
 std::string uneven_dilatation(const Situation& situation);
 
-// A warning for each block with cells that are no cubes, if it has contact by surfaces or a fracture energy.
+// A warning for each block with cells that are no cubes, if it has contact by surfaces or a fracture energy; and for
+// each with contact or a fracture energy whose cells differ in size.
 std::string oblong_cells(const Situation& situation);
 
 // ---- declared_contact.cpp
