@@ -146,8 +146,8 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
   };
   // Forces of different size are solved for alike: no stiffness couples the parts, so each has its own unit.
   const SeparateParts& parts = equilibrium_.parts();
-  std::vector<double> units(parts.count(), 1);
-  if (parts.count() > 1) units = parts.norms(right, equilibrium_.body().domain.communicator);
+  std::vector<double> units(parts.pieces(), 1);
+  if (parts.several()) units = parts.of_parts(parts.norms(right, equilibrium_.body().domain.communicator));
   for (double& unit : units) unit = unit > 0 ? unit : 1;
   for (std::size_t i = 0; i < right.size(); ++i) right[i] /= units[parts.of(static_cast<int>(i))];
   const int most = damping_ > 0 ? most_products_damped : most_products;
