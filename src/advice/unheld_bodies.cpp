@@ -134,7 +134,7 @@ void hold_by_tools(const Scene& scene, double start, Pieces& pieces) {
     const Vector offset = tool.offset(start);
     for (const int i : tool.points) {
       ++pieces.all[pieces.of[i]].reached;
-      const Vector place = scene.body.current(i) - offset;
+      const Vector place = tool.nearest_image(domain, scene.body.current(i) - offset);
       const Surface at = tool.met_by(i, tool.shape, place);
       if (at.gap < touching * domain.cloud.spacings[i]) {
         pieces.all[pieces.of[i]].hold(domain.reference(i), at.normal);

@@ -64,7 +64,8 @@ void ToolContact::add_forces(const Body& body, Field& forces) {
   for (ContactPoint& contact : contact_points_) {
     const Vector place = body.current(contact.point);
     const RigidTool& tool = tools_[contact.tool];
-    const Surface at = tool.met_by(contact.point, tool.shape, place - offsets_[contact.tool]);
+    const Vector image = tool.nearest_image(body.domain, place - offsets_[contact.tool]);
+    const Surface at = tool.met_by(contact.point, tool.shape, image);
     const Vector way = place - contact.start - travels_[contact.tool];
     press(at, way - way.dot(at.normal) * at.normal, contact);
     forces[contact.point] += contact.now.force;
