@@ -15,7 +15,7 @@ namespace {
 // at least one horizon apart, and a pair touches at 0.9 of its initial distance or less. As long as this sum is below
 // 0.1, pairs of undeformed material are listed only for fast points, and other pairs only once the material has shrunk
 // by the remainder of this tenth.
-constexpr double skin_share = 0.08;
+constexpr double skin_fraction = 0.08;
 
 // A search is made this many steps before a skin distance is used up, because the motion of the next step is a
 // forecast, and points that touch in the step after it contribute to the stiffness, too.
@@ -46,7 +46,7 @@ Contact::Contact(const std::vector<Interaction>& interactions, const Domain& dom
     const bool by_surfaces = std::holds_alternative<SurfaceLaw>(model.law);
     BlockPair blocks{first, second, one_body, by_surfaces, points_of(domain, first, second)};
     const double horizon = std::min(domain.blocks[first].smallest, domain.blocks[second].smallest);
-    contact_pairs_.push_back({model, std::move(blocks), skin_share / 2 * horizon});
+    contact_pairs_.push_back({model, std::move(blocks), skin_fraction / 2 * horizon});
     ContactPair& added = contact_pairs_.back();
     if (by_surfaces) added.surfaces.emplace(domain, added.blocks, std::get<SurfaceLaw>(model.law));
   }
@@ -92,7 +92,7 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
 void Contact::check(const Kinematics& kinematics, double dt, ContactPair& contact_pair) {
   static Teuchos::Time& timer = phase("Contact search");
   const Timed timed(timer);
-  contact_pair.check_due = false;
+  contact_pair.check_pending = false;
   if (!contact_pair.searched) contact_pair.frame = frame_of(kinematics, contact_pair.blocks, contact_pair.pairs);
   contact_pair.mean_velocity = mean_velocity(kinematics, contact_pair.blocks, contact_pair.frame);
   if (contact_pair.searched)
@@ -121,10 +121,10 @@ bool Contact::breaks_meet(const Kinematics& kinematics, const ContactPair& conta
   return false;
 }
 
-void Contact::check_where_due(const Kinematics& kinematics, double dt) {
+void Contact::check_where_pending(const Kinematics& kinematics, double dt) {
   const int before = searches_;
   for (ContactPair& contact_pair : contact_pairs_) {
-    if (contact_pair.check_due) check(kinematics, dt, contact_pair);
+    if (contact_pair.check_pending) check(kinematics, dt, contact_pair);
   }
   if (searches_ > before) find_points_of_several();
 }
@@ -225,7 +225,7 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, const Sliding&
 
 void Contact::add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density) {
   if (!any()) return;
-  check_where_due(kinematics, dt);
+  check_where_pending(kinematics, dt);
   add_forces(kinematics, dt, {kinematics.velocities, dt}, force_density);
 }
 
@@ -246,7 +246,7 @@ void Contact::foresee(const Kinematics& kinematics, double dt) {
 void Contact::add_trial_forces(const Kinematics& kinematics, std::span<const Vector> increments,
                                std::vector<Vector>& force_density) {
   if (!any()) return;
-  check_where_due(kinematics, 0);
+  check_where_pending(kinematics, 0);
   add_forces(kinematics, 0, {.of = increments, .is_trial = true}, force_density);
 }
 
@@ -314,7 +314,8 @@ void Contact::take_agreed(std::span<const double> numbers, double dt) {
     contact_pair.meets = numbers[3 * m + 1] > 0;
     const double use = dt * numbers[3 * m + 2];
     contact_pair.used += use;
-    contact_pair.check_due = !contact_pair.searched || contact_pair.meets || !(contact_pair.used + forecast * use < 1);
+    contact_pair.check_pending =
+        !contact_pair.searched || contact_pair.meets || !(contact_pair.used + forecast * use < 1);
   }
   stiffness_ = std::max(of_points + of_surfaces, decay * stiffness_);
   penetration_ = numbers.back();
@@ -368,7 +369,7 @@ void Contact::restore(const Kinematics& kinematics, double dt) {
   add_forces(kinematics, dt, forces);
   for (ContactPair& pair : contact_pairs_) {
     pair.meets = domain.communicator.any(breaks_meet(kinematics, pair));
-    pair.check_due = true;  // the use of the skin distances in the next step is unknown
+    pair.check_pending = true;  // the use of the skin distances in the next step is unknown
     // An equilibrium has no time step from which to recompute friction: it is that of the last commit.
     const bool rubs = pair.surfaces && pair.model.friction > 0;
     if (rubs && dt == 0) pair.friction = pair.surfaces->committed_friction();

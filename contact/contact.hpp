@@ -29,7 +29,7 @@ struct FrictionWork {
 
 class Contact {
  public:
-  Contact() = default;  // no contact: every call is free
+  Contact() = default;  // no contact: every call returns at once
   // Collective. The bodies must be at their initial positions.
   Contact(const std::vector<Interaction>& interactions, const Domain& domain);
 
@@ -39,7 +39,7 @@ class Contact {
   // led here (s), 0 at the start.
   void add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density);
 
-  // Collective, after the forces at the start. Raises stiffness() to include the points, not of surfaces, that would
+  // Collective; after add_forces at the start. Raises stiffness() by the pairs of points (not by surfaces) that would
   // touch within a first step of dt (s) at the velocities of `kinematics`.
   void foresee(const Kinematics& kinematics, double dt);
 
@@ -69,9 +69,9 @@ class Contact {
   double stiffness() const { return stiffness_; }  // a bound of ω² of all touching points, 1/s²; as last agreed
   double energy() const;                           // stored by this rank's points, J
 
-  // Deepest penetration at the last forces: over all ranks, as last agreed, and of this rank's points.
-  double penetration() const { return penetration_; }
-  DeepestPenetration deepest() const;
+  // Deepest penetration at the last forces, over the touching distance of the pair (between surfaces: in spacings).
+  double penetration() const { return penetration_; }  // over all ranks, as last agreed
+  DeepestPenetration deepest() const;                  // of this rank's points
 
   // True if two blocks have an interaction, or one by surfaces.
   bool between(int first, int second) const;
@@ -83,8 +83,8 @@ class Contact {
   // velocities from `before` to `after`.
   FrictionWork friction_work(double impulse_time, std::span<const Vector> before, std::span<const Vector> after) const;
 
-  // Adds to the forces of domain.mirrors, N, those of the mirror images on this rank's points by couples of friction;
-  // to the forces of domain.periods those of all contact through the sides.
+  // Adds forces on this rank's points to `of_mirrors`, N. Its entries are those of domain.mirrors, which get the
+  // couples of friction by mirror images; or those of domain.periods, which get all contact through the sides.
   void add_mirror_reactions(const Domain& domain, std::vector<Vector>& of_mirrors) const;
 
   // Adds `amount` to the entry of each of this rank's points, once for each contact pair whose last normal force on
@@ -121,11 +121,12 @@ class Contact {
     Vector mean_velocity = Vector::Zero();  // m/s
     double used = 0;     // in each step: bound of the fraction of a skin distance that a point has used since a search
     bool meets = false;  // in each step: points whose bonds have broken since the search are near each other
-    bool check_due = true;  // `used` is near 1: the skin distances must be checked in the next step
+    bool check_pending = true;  // `used` is near 1: the skin distances must be checked in the next step
     ForceResult result = {};
     std::vector<Load> loads = {};       // of pairs.owned, if the model is one of points
     std::vector<Vector> friction = {};  // N, on pairs.owned
-    // Points that other contact pairs of points have, too: pairs.owned[k] is owned[there] of contact_pairs_[pair].
+    // Points that are in another contact pair of points, too: pairs.owned[k] is pairs.owned[there] of
+    // contact_pairs_[pair].
     struct Elsewhere {
       std::size_t k, pair, there;
     };
@@ -141,7 +142,7 @@ class Contact {
   static bool breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair);
   void check(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   // Collective.
-  void check_where_due(const Kinematics& kinematics, double dt);
+  void check_where_pending(const Kinematics& kinematics, double dt);
   void add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding, std::vector<Vector>& force_density);
   static void add_normal_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair,
                                 std::vector<Vector>& force_density);

@@ -92,14 +92,20 @@ Couples::Neighborhood Couples::of(const Kinematics& kinematics, int i, double ar
 void Couples::add_forces(const Domain& domain, const std::vector<Neighborhood>& neighborhoods,
                          const std::vector<Vector>& couples, std::vector<Vector>& force_density) {
   if (!any_) return;
+  std::vector<char> turned(twists_.size(), 0);  // in the neighborhood of an owned point with a couple: few are
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const Patch& patch = neighborhoods[k].patch;
-    twists_[points_[k]] = {patch.per_couple * couples[k], domain.current(points_[k]) + patch.middle};
+    const int i = points_[k];
+    twists_[i] = {patch.per_couple * couples[k], domain.current(i) + patch.middle};
+    if (twists_[i].turn.isZero(0)) continue;
+    turned[i] = 1;
+    domain.families.for_each(i, [&](int j) { turned[j] = 1; });
   }
   domain.halo.exchange<Twist::reflect>(twists_);
   forces_.assign(affected_.size(), Vector::Zero());
   for (std::size_t n = 0; n < affected_.size(); ++n) {
     const int i = affected_[n];
+    if (!turned[i] && i < domain.interior) continue;
     Vector sum = Vector::Zero();
     const auto take = [&](int j) {
       if (!twists_[j].turn.isZero(0)) sum += density(domain, i, j);

@@ -77,13 +77,13 @@ class Couples {
   struct Motion {
     Vector place, velocity;
     static void reflect(const Reflection& by, Motion& motion) {
-      reflect_place(by, motion.place), reflect_direction(by, motion.velocity);
+      reflect_position(by, motion.place), reflect_direction(by, motion.velocity);
     }
   };
   struct Twist {
     Vector turn, middle;  // θ, and the position where the forces vanish
     static void reflect(const Reflection& by, Twist& twist) {
-      reflect_place(by, twist.middle), reflect_direction(by, twist.turn);
+      reflect_position(by, twist.middle), reflect_direction(by, twist.turn);
       twist.turn *= by.turn.determinant();  // a mirror image rotates the other way
     }
   };

@@ -42,22 +42,22 @@ struct Touch {
 };
 
 // Displacements of the sites of pairs in the last step, m; empty if there was none.
-struct Ways {
+struct StepDisplacements {
   std::vector<Vector> of = {};
   double most = 0;  // upper bound of the approach of two of them
 };
 
 // Computed from velocities, so that the displacements do not depend on when a search found the pairs.
-Ways ways_of(const Kinematics& kinematics, double dt, Pairs& pairs) {
-  Ways ways;
-  if (dt == 0) return ways;
-  ways.of.assign(pairs.sites.size(), Vector::Zero());
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k) ways.of[k] = dt * kinematics.velocities[pairs.owned[k]];
-  if (pairs.halo) pairs.halo->exchange<unchanged>(ways.of);
+StepDisplacements step_displacements(const Kinematics& kinematics, double dt, Pairs& pairs) {
+  StepDisplacements displacements;
+  if (dt == 0) return displacements;
+  displacements.of.assign(pairs.sites.size(), Vector::Zero());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) displacements.of[k] = dt * kinematics.velocities[pairs.owned[k]];
+  if (pairs.halo) pairs.halo->exchange<unchanged>(displacements.of);
   Eigen::AlignedBox3d box;
-  for (const Vector& way : ways.of) box.extend(way);
-  if (!ways.of.empty()) ways.most = box.diagonal().norm();
-  return ways;
+  for (const Vector& displacement : displacements.of) box.extend(displacement);
+  if (!displacements.of.empty()) displacements.most = box.diagonal().norm();
+  return displacements;
 }
 
 PointPair pair_of(const Site& a, const Site& b, bool one_body) {
@@ -69,9 +69,10 @@ PointPair pair_of(const Site& a, const Site& b, bool one_body) {
 
 // Calls visit(Touch) for each partner of owned[k] that touches it or is about to.
 template <ContactLaw L, class Visit>
-void for_each_near(const Pairs& pairs, const Ways& ways, const L& law, std::size_t k, Visit&& visit) {
+void for_each_near(const Pairs& pairs, const StepDisplacements& displacements, const L& law, std::size_t k,
+                   Visit&& visit) {
   const Site& here = pairs.sites[k];
-  const double reach = law.radius + ways.most, reach2 = just * reach * reach;
+  const double reach = law.radius + displacements.most, reach2 = just * reach * reach;
   for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
     const int partner = pairs.partners[p];
     const Site& there = pairs.sites[partner];
@@ -81,10 +82,11 @@ void for_each_near(const Pairs& pairs, const Ways& ways, const L& law, std::size
     const PointPair pair = pair_of(here, there, pairs.one_body);
     double touching = law.touching_distance(pair);
     if (!pairs.limits.empty()) touching = std::min(touching, pairs.limits[p]);
-    const double seen = touching + ways.most;
+    const double seen = touching + displacements.most;
     if (!(distance2 < just * seen * seen)) continue;
     const double distance = std::sqrt(distance2);
-    const double to_come = ways.of.empty() ? distance : (eta + ways.of[partner] - ways.of[k]).norm();
+    const double to_come =
+        displacements.of.empty() ? distance : (eta + displacements.of[partner] - displacements.of[k]).norm();
     // Two points at the same position have no direction: no force separates them in this step.
     const Vector direction = distance > 0 ? Vector(eta / distance) : Vector::Zero();
     const Touch<L> touch{law, pair, partner, direction, distance, touching, to_come};
@@ -94,7 +96,7 @@ void for_each_near(const Pairs& pairs, const Ways& ways, const L& law, std::size
 
 template <ContactLaw L, class Visit>
 void for_each_touch(const Pairs& pairs, const L& law, std::size_t k, Visit&& visit) {
-  for_each_near(pairs, Ways(), law, k, visit);
+  for_each_near(pairs, StepDisplacements(), law, k, visit);
 }
 
 // Data of a point that its partners need for friction.
@@ -145,13 +147,13 @@ Vector surface_normal(const Slider& here, const Slider& there, const Vector& dir
 }
 
 template <ContactLaw L>
-ForceResult normal_forces(const L& law, const Pairs& pairs, const Ways& ways, std::vector<Vector>& force_density,
-                          std::vector<Load>& loads) {
+ForceResult normal_forces(const L& law, const Pairs& pairs, const StepDisplacements& displacements,
+                          std::vector<Vector>& force_density, std::vector<Load>& loads) {
   ForceResult result;
   loads.resize(pairs.owned.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Load load;
-    for_each_near(pairs, ways, law, k, [&](const Touch<L>& touch) {
+    for_each_near(pairs, displacements, law, k, [&](const Touch<L>& touch) {
       const double mass = pairs.masses[k];
       const double weight = touch.stiffness_to_come() * (1 / mass + 1 / std::sqrt(mass * pairs.masses[touch.partner]));
       load.springs += weight * touch.direction * touch.direction.transpose();
@@ -189,8 +191,8 @@ Friction friction_forces(const Kinematics& kinematics, const L& law, double coef
       if (here.turns + there.turns == 0) return;
       const Vector normal = surface_normal(here, there, touch.direction);
       const double load = touch.force() * std::abs(normal.dot(touch.direction));
-      const Vector way = touch.distance * touch.direction, arm = place_of_friction(here, there) * way,
-                   other_arm = -place_of_friction(there, here) * way;
+      const Vector displacement = touch.distance * touch.direction, arm = place_of_friction(here, there) * displacement,
+                   other_arm = -place_of_friction(there, here) * displacement;
       const Vector velocity = there.velocity_at(other_arm) - here.velocity_at(arm);
       const Vector force =
           friction_force(coefficient, load, velocity, normal, here.mobility_at(arm) + there.mobility_at(other_arm), dt);
@@ -221,8 +223,9 @@ ForceResult add_normal_forces(const Kinematics& kinematics, double dt, const Pai
                               std::vector<Vector>& force_density, std::vector<Load>& loads) {
   bring_to_present(kinematics, pairs);
   if (dt > 0) raise_limits(pairs);
-  const Ways ways = ways_of(kinematics, dt, pairs);
-  return std::visit([&](const auto& one) { return normal_forces(one, pairs, ways, force_density, loads); }, law);
+  const StepDisplacements displacements = step_displacements(kinematics, dt, pairs);
+  return std::visit([&](const auto& one) { return normal_forces(one, pairs, displacements, force_density, loads); },
+                    law);
 }
 
 void add_friction(const Kinematics& kinematics, const PairLaw& law, double coefficient, double dt, Pairs& pairs,

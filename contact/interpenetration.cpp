@@ -103,7 +103,8 @@ class Material {
       if (r2 < nearest) nearest = r2, point = &places_[j];
     });
     if (!point) return false;
-    return share(x) >= (at_ == PointsAt::nodes ? as_far_in * share(behind(x)) : as_deep * share(*point));
+    return volume_fraction(x) >=
+           (at_ == PointsAt::nodes ? as_far_in * volume_fraction(behind(x)) : as_deep * volume_fraction(*point));
   }
 
  private:
@@ -117,7 +118,7 @@ class Material {
       if (r2 < reach() * reach()) visit(volumes_[j], away, r2);
     });
   }
-  double share(const Vector& x) const {
+  double volume_fraction(const Vector& x) const {
     double sum = 0;
     around(x, [&](double volume, const Vector&, double r2) { sum += volume * smoothing_.value(r2); });
     return sum;

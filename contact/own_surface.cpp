@@ -156,14 +156,14 @@ void bend(const Domain& domain, double spacing, std::vector<Piece>& own) {
   const double within = around * spacing;
   const Near<Piece> all(with_periods(own, domain, mine, within), mine, within, domain.communicator);
   for (Piece& piece : own) {
-    double turned = 0, way = 0;
+    double turned = 0, squares = 0;
     all.over(piece.at(), around * piece.spacing, piece.body, [&](const Piece& other, const Vector& apart) {
       if (other.id == piece.id || !other.is_smooth() || !(other.out().dot(piece.out()) > alike)) return;
       turned += apart.dot(other.out() - piece.out());
-      way += apart.squaredNorm();
+      squares += apart.squaredNorm();
     });
     const double limit = sharpest / piece.spacing;
-    if (way > 0) piece.curvature = std::clamp(turned / way, -limit, limit);
+    if (squares > 0) piece.curvature = std::clamp(turned / squares, -limit, limit);
   }
   for (Piece& piece : own) {
     const double bent = piece.area / 12 + piece.spacing * piece.spacing / 24;
@@ -202,15 +202,15 @@ void compare_with_face(const Domain& domain, const BlockPair& blocks, double rea
   const Smoothing smoothing(reach);
   for (Piece& piece : own) {
     if (!piece.is_smooth()) continue;
-    double share = 0;
+    double volume_fraction = 0;
     const auto add = [&](const Vector& x) {
       material.over(x, reach, piece.body, [&](const Grain& grain, const Vector& apart) {
-        share += grain.volume * smoothing.value(apart.squaredNorm());
+        volume_fraction += grain.volume * smoothing.value(apart.squaredNorm());
       });
     };
     over_images(piece, images, in_front(piece), add);
-    const double wanted = Face{reach, piece.spacing, true}.share(ahead);
-    const double missing = wanted / share;
+    const double wanted = Face{reach, piece.spacing, true}.volume_fraction(ahead);
+    const double missing = wanted / volume_fraction;
     piece.missing = missing < least_missing ? 0 : std::min(missing, most_missing);
   }
 }
@@ -252,8 +252,8 @@ double reach_to_surface(const Domain& domain, int i) {
 }
 
 // Sets depth, volume and may_touch of this rank's points of both blocks from the pieces around them.
-void look_at(const Domain& domain, const BlockPair& blocks, double reach, const Near<Piece>& pieces,
-             OwnSurface& surface) {
+void set_depths(const Domain& domain, const BlockPair& blocks, double reach, const Near<Piece>& pieces,
+                OwnSurface& surface) {
   for (std::size_t k = 0; k < blocks.points.size(); ++k) {
     const int i = blocks.points[k], body = domain.body_of(i);
     const Vector X = domain.reference(i);
@@ -264,8 +264,8 @@ void look_at(const Domain& domain, const BlockPair& blocks, double reach, const 
     add_piece(domain, i, piece);
     if (piece.empty() && !(below < deepest * spacing)) continue;
     surface.may_touch[k] = true;
-    const bool is_told = below < std::numeric_limits<double>::infinity() && (piece.empty() || piece[0].is_smooth());
-    surface.depths[k] = is_told ? below : std::min(surface.depths[k], below);
+    const bool is_known = below < std::numeric_limits<double>::infinity() && (piece.empty() || piece[0].is_smooth());
+    surface.depths[k] = is_known ? below : std::min(surface.depths[k], below);
   }
 }
 
@@ -278,8 +278,8 @@ OwnSurface own_surface(const Domain& domain, const BlockPair& blocks, double rea
     surface.volumes.push_back(domain.volume(i));
     surface.may_touch.push_back(is_at_surface(domain, i));
   }
-  const bool is_told = domain.cloud.at == PointsAt::elements && !domain.cloud.shapes.empty();
-  if (!domain.communicator.any(is_told)) return surface;
+  const bool is_known = domain.cloud.at == PointsAt::elements && !domain.cloud.shapes.empty();
+  if (!domain.communicator.any(is_known)) return surface;
   Eigen::AlignedBox3d mine;
   std::vector<Piece> own;
   double spacing = 0;
@@ -294,7 +294,7 @@ OwnSurface own_surface(const Domain& domain, const BlockPair& blocks, double rea
   compare_with_face(domain, blocks, reach, own);
   const double within = std::max(tells / reach_in_spacings * reach, planes_within * spacing);
   own = with_periods(std::move(own), domain, mine, within);
-  look_at(domain, blocks, reach, Near<Piece>(std::move(own), mine, within, domain.communicator), surface);
+  set_depths(domain, blocks, reach, Near<Piece>(std::move(own), mine, within, domain.communicator), surface);
   return surface;
 }
 

@@ -61,9 +61,9 @@ Vector Surfaces::between_surfaces(std::size_t k) const {
 void Surfaces::add_friction(const Kinematics& kinematics, const Sliding& sliding, const SurfaceLaw& law,
                             double coefficient, Pairs& pairs, Couples& couples, std::vector<Vector>& force_density,
                             std::vector<Vector>& friction) {
-  std::vector<Vector> ways(pairs.sites.size(), Vector::Zero());
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k) ways[k] = sliding.times * sliding.of[pairs.owned[k]];
-  exchange_records(pairs, ways);
+  std::vector<Vector> displacements(pairs.sites.size(), Vector::Zero());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) displacements[k] = sliding.times * sliding.of[pairs.owned[k]];
+  exchange_records(pairs, displacements);
   std::vector<FrictionExchange> exchanges(pairs.sites.size());
   std::vector<Couples::Neighborhood> own(pairs.owned.size());
   std::vector<Vector> turned(pairs.owned.size(), Vector::Zero());
@@ -82,7 +82,7 @@ void Surfaces::add_friction(const Kinematics& kinematics, const Sliding& sliding
     const Patch patch = felt_patch(pairs, k, place);
     const Vector normal = gradient_[k].stableNormalized();
     slip = slips_before_[places_[k]] - sliding.times * own[k].spin.cross(place) +
-           slip_of(pairs, k, patch, place, !sliding.is_trial, [&](int site) { return ways[site]; });
+           slip_of(pairs, k, patch, place, !sliding.is_trial, [&](int site) { return displacements[site]; });
     slip -= slip.dot(normal) * normal;
     slip = bearable(patch, place, slip);
     const double stiffness = of_friction * law.stiffness() * points_[places_[k]].area;
@@ -95,7 +95,7 @@ void Surfaces::add_friction(const Kinematics& kinematics, const Sliding& sliding
     friction_tangents_[k] = {.along = friction[k].stableNormalized(),
                              .normal = normal,
                              .spring = slides ? stiffness * most / wanted : stiffness,
-                             .by_share = slides ? coefficient * facing_[k].stiffness * gradient_[k].norm() : 0,
+                             .by_fraction = slides ? coefficient * facing_[k].stiffness * gradient_[k].norm() : 0,
                              .patch = patch,
                              .slides = slides};
   }
@@ -148,12 +148,12 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
   exchange_records(pairs, changes);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     if (!facing_[k].touches()) continue;
-    double share = gradient_[k].dot(changes[k].of_place);
+    double fraction_change = gradient_[k].dot(changes[k].of_place);
     over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
-      share += pairs.sites[partner].volume() * Smoothing(reach).slope_over_distance(distance2) *
-               eta.dot(changes[partner].of_place);
+      fraction_change += pairs.sites[partner].volume() * Smoothing(reach).slope_over_distance(distance2) *
+                         eta.dot(changes[partner].of_place);
     });
-    changes[k].tension = facing_[k].stiffness * share;
+    changes[k].tension = facing_[k].stiffness * fraction_change;
     if (friction_tangents_.empty()) continue;
     const FrictionTangent& tangent = friction_tangents_[k];
     Vector slip =
@@ -161,7 +161,7 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
     slip -= slip.dot(tangent.normal) * tangent.normal;
     slip = bearable(tangent.patch, Vector::Zero(), slip);
     if (tangent.slides) slip -= slip.dot(tangent.along) * tangent.along;
-    drags[k] = tangent.spring * slip + tangent.by_share * share * tangent.along;
+    drags[k] = tangent.spring * slip + tangent.by_fraction * fraction_change * tangent.along;
     changes[k].friction = friction_exchange_of(tangent.patch, Vector::Zero(), drags[k]);
   }
   exchange_records(pairs, changes);

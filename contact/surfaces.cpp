@@ -18,7 +18,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 // Upper bound of the change of ρ, times the smallest reach, per length that all near points move: ∫ |W'| dV is 6.3/R,
 // and material may be denser than in the reference state.
-constexpr double steepest_share = 10;
+constexpr double steepest_fraction = 10;
 
 // `depth`: below the surface of its body, m.
 SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other, double depth, bool may_touch) {
@@ -29,7 +29,7 @@ SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other,
   const bool nodes = cloud.at == PointsAt::nodes;
   const Face other{reach, spacing_of_other, !nodes};
   return {.reach = reach,
-          .threshold = other.share(beyond),
+          .threshold = other.volume_fraction(beyond),
           .slope = other.slope(beyond),
           .depth = beyond,
           .area = (nodes ? 1 : 0.5) * domain.volume(i) / spacing,
@@ -42,7 +42,7 @@ SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other,
 
 // ρ at a point and its derivatives by positions.
 struct Surfaces::Felt {
-  double share = 0;
+  double volume_fraction = 0;
   Vector gradient = Vector::Zero();  // by the point's own position, 1/m
   double of_partners = 0;            // Σ |∂ρ/∂y_j|/√m_j
 };
@@ -69,18 +69,18 @@ void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, con
   take(domain, blocks, {}, {}, pairs);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     double& threshold = points_[places_[k]].threshold;
-    threshold = std::max(threshold, feel(pairs, k).share);
+    threshold = std::max(threshold, feel(pairs, k).volume_fraction);
   }
 }
 
 void Surfaces::take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& before, const BrokenCounts& now,
                     Pairs& pairs) {
   places_ = places_in(blocks, pairs);
-  due_.clear();
+  next_checks_.clear();
   std::vector<Vector> slips(blocks.points.size(), Vector::Zero());
   std::vector<double> overlaps(blocks.points.size(), 0);
   for (const int at : places_) {
-    due_.push_back(points_[at].is_at_surface ? 0 : never);
+    next_checks_.push_back(points_[at].is_at_surface ? 0 : never);
     slips[at] = slips_[at];
     overlaps[at] = overlaps_[at];
   }
@@ -118,12 +118,12 @@ void Surfaces::set_smallest_reaches(const Pairs& pairs) {
 // Points with broken bonds are at a surface from then on.
 void Surfaces::expose_broken(const Domain& domain, const Pairs& pairs) {
   for (std::size_t k = 0; k < pairs.owned.size() && !broken_.empty(); ++k) {
-    if (due_[k] != never || domain.families.broken[pairs.owned[k]].empty()) continue;
-    due_[k] = 0;
+    if (next_checks_[k] != never || domain.families.broken[pairs.owned[k]].empty()) continue;
+    next_checks_[k] = 0;
     BrokenPoint& point = broken_[places_[k]];
     if (point.is_exposed) continue;
     point.is_exposed = true;
-    point.excess = std::max(0.0, feel(pairs, k).share - points_[places_[k]].threshold);
+    point.excess = std::max(0.0, feel(pairs, k).volume_fraction - points_[places_[k]].threshold);
   }
 }
 
@@ -139,7 +139,7 @@ void Surfaces::see_through_breaks(const Domain& domain, const BlockPair& blocks,
     const int at = places_[k];
     const std::vector<std::int64_t> unseen = new_breaks(domain, blocks, at, before, now);
     if (unseen.empty()) continue;
-    const double without = feel(pairs, k, unseen).share, with = feel(pairs, k).share;
+    const double without = feel(pairs, k, unseen).volume_fraction, with = feel(pairs, k).volume_fraction;
     if (!(with > without)) continue;
     BrokenPoint& point = broken_[at];
     const double threshold = points_[at].threshold, overlap = without - threshold - point.excess;
@@ -155,7 +155,7 @@ Surfaces::Felt Surfaces::feel(const Pairs& pairs, std::size_t k, std::span<const
     if (!unseen.empty() && std::find(unseen.begin(), unseen.end(), pairs.ids[partner]) != unseen.end()) return;
     const Smoothing around(reach);
     const double volume = pairs.sites[partner].volume(), slope = volume * around.slope_over_distance(distance2);
-    felt.share += volume * around.value(distance2);
+    felt.volume_fraction += volume * around.value(distance2);
     felt.gradient -= slope * eta;
     felt.of_partners += std::abs(slope) * std::sqrt(distance2) / std::sqrt(pairs.masses[partner]);
   });
@@ -166,13 +166,13 @@ Surfaces::Felt Surfaces::feel(const Pairs& pairs, std::size_t k, std::span<const
 Surfaces::Facing Surfaces::facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double threshold,
                                   double mass, double& overlap) const {
   Facing facing{.reach = point.reach};
-  const double before = overlap, now = (felt.share - threshold) / point.slope;
+  const double before = overlap, now = (felt.volume_fraction - threshold) / point.slope;
   overlap = std::max(0.0, now);
-  if (!(now >= 0) || felt.share == 0) return facing;
-  const double by_share = point.area / (point.slope * point.slope);
+  if (!(now >= 0) || felt.volume_fraction == 0) return facing;
+  const double by_fraction = point.area / (point.slope * point.slope);
   facing.push = point.area * law.pressure(now) / point.slope;
-  facing.stiffness = by_share * law.slope(now);
-  facing.to_come = by_share * law.slope(now + std::max(0.0, now - before));
+  facing.stiffness = by_fraction * law.slope(now);
+  facing.to_come = by_fraction * law.slope(now + std::max(0.0, now - before));
   facing.spread = felt.gradient.norm() / std::sqrt(mass) + felt.of_partners;
   return facing;
 }
@@ -185,9 +185,12 @@ void Surfaces::advance_travel(const Pairs& pairs) {
   } else {
     Vector mean = Vector::Zero();
     double largest2 = 0;
-    const auto way = [&](std::size_t s) { return Vector(pairs.sites[s].current.head<3>().matrix() - seen_[s]); };
-    for (std::size_t s = 0; s < seen_.size(); ++s) mean += way(s) / static_cast<double>(seen_.size());
-    for (std::size_t s = 0; s < seen_.size(); ++s) largest2 = std::max(largest2, (way(s) - mean).squaredNorm());
+    const auto displacement = [&](std::size_t s) {
+      return Vector(pairs.sites[s].current.head<3>().matrix() - seen_[s]);
+    };
+    for (std::size_t s = 0; s < seen_.size(); ++s) mean += displacement(s) / static_cast<double>(seen_.size());
+    for (std::size_t s = 0; s < seen_.size(); ++s)
+      largest2 = std::max(largest2, (displacement(s) - mean).squaredNorm());
     travel_ += 2 * std::sqrt(largest2);
   }
   seen_.clear();
@@ -208,16 +211,17 @@ ForceResult Surfaces::feel_all(const SurfaceLaw& law, bool is_trial, const Pairs
   advance_travel(pairs);
   ForceResult result;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    if (travel_ < due_[k]) continue;
+    if (travel_ < next_checks_[k]) continue;
     const SurfacePoint& point = points_[places_[k]];
     const Felt felt = feel(pairs, k);
     const bool has_excess = excess_of(k) > 0;
     if (has_excess && !is_trial) {
       double& excess = broken_[places_[k]].excess;
-      excess = std::clamp(felt.share - point.threshold, 0.0, excess);
+      excess = std::clamp(felt.volume_fraction - point.threshold, 0.0, excess);
     }
     const double threshold = point.threshold + excess_of(k);
-    due_[k] = has_excess ? 0 : travel_ + (threshold - felt.share) * smallest_reach_[k] / steepest_share;
+    next_checks_[k] =
+        has_excess ? 0 : travel_ + (threshold - felt.volume_fraction) * smallest_reach_[k] / steepest_fraction;
     double& overlap = overlaps_[places_[k]];
     gradient_[k] = felt.gradient;
     facing_[k] = facing(law, point, felt, threshold, pairs.masses[k], overlap);

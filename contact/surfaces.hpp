@@ -103,7 +103,7 @@ class Surfaces {
     Vector along = Vector::Zero();   // direction of the force
     Vector normal = Vector::Zero();  // normal of the surface
     double spring = 0;               // N/m, along the surface; while sliding, only across the direction of sliding
-    double by_share = 0;             // N: change of the sliding force with ρ
+    double by_fraction = 0;          // N: change of the sliding force with ρ
     Patch patch;                     // the patch that the point feels, relative to the point
     bool slides = false;
   };
@@ -141,7 +141,7 @@ class Surfaces {
   std::vector<Vector> friction_before_;       // of blocks.points, N: at the last commit
   std::vector<FrictionTangent> friction_tangents_;  // of pairs.owned, in a trial
   std::vector<int> places_;                         // of pairs.owned in blocks.points
-  std::vector<double> due_;                         // of pairs.owned: the travel at which the point may touch, m
+  std::vector<double> next_checks_;                 // of pairs.owned: the travel at which the point may touch, m
   std::vector<double> smallest_reach_;              // of pairs.owned, for any partner, m
   std::vector<Vector> seen_;                        // last positions of pairs.sites, m
   double travel_ = 0;                               // since the search, m
@@ -157,7 +157,8 @@ class Surfaces {
 inline double reach_between(double reach, const Site& here, const Site& there, bool one_body) {
   if (!one_body) return reach;
   const double apart2 = (there.reference - here.reference).head<3>().matrix().squaredNorm();
-  return reference_share * reference_share * apart2 < reach * reach ? reference_share * std::sqrt(apart2) : reach;
+  return reference_fraction * reference_fraction * apart2 < reach * reach ? reference_fraction * std::sqrt(apart2)
+                                                                          : reach;
 }
 
 template <class Record>

@@ -131,14 +131,14 @@ bool has_passed(const Domain& domain, const Uncovered& uncovered, const Seen& a,
 
 // True if points that started two horizons (in one body) or an edge (in two) apart cannot have come close.
 bool hardly_moved(const Domain& domain) {
-  Eigen::AlignedBox3d ways;
+  Eigen::AlignedBox3d displacements;
   double edge = std::numeric_limits<double>::max();
   for (int i = 0; i < domain.owned; ++i) {
-    ways.extend(Vector(domain.current(i) - domain.reference(i)));
+    displacements.extend(Vector(domain.current(i) - domain.reference(i)));
     edge = std::min(edge, edges_of_cell(domain, i).shortest);
   }
-  ways = common_box(ways, domain.communicator);
-  return ways.isEmpty() || ways.diagonal().norm() < (1 - near) * domain.communicator.min(edge);
+  displacements = common_box(displacements, domain.communicator);
+  return displacements.isEmpty() || displacements.diagonal().norm() < (1 - near) * domain.communicator.min(edge);
 }
 
 // Counts the passed points of this rank, which are the first `mine` of `all`.

@@ -19,8 +19,8 @@ PointStress Brittle::soften(const PointStep& step, const Symmetric& stress, Stat
   const double left = std::max(0.0, 1 - state.dissipated / whole);  // times an infinite strength it is never exceeded
   State reached = state;
   if (x * most > strength * left) {
-    const double slope = strength * step.J * solid.elastic_energy(falling(effective)) / whole, room = most - slope;
-    const double to = room > 0 ? (most - strength * left - slope * state.damage) / room : 1;
+    const double slope = strength * step.J * solid.elastic_energy(falling(effective)) / whole, margin = most - slope;
+    const double to = margin > 0 ? (most - strength * left - slope * state.damage) / margin : 1;
     reached.damage = std::max(state.damage, std::min(to, most_damage));
   }
   const Symmetric next = scaled(effective, 1 - reached.damage);

@@ -67,8 +67,8 @@ struct Brittle {
   template <class T>
   MaskOf<T> may_crack(const SymmetricOf<T>& stress) const {
     const SymmetricOf<T> s = deviator(stress);
-    const T room = strength - trace(stress) / 3;
-    return room < 0 || 2.0 / 3 * double_dot(s, s) > room * room;
+    const T margin = strength - trace(stress) / 3;
+    return margin < 0 || 2.0 / 3 * double_dot(s, s) > margin * margin;
   }
 };
 

@@ -68,9 +68,9 @@ struct DeshpandeFleck {
   // From `initial` to `compacted` in proportion to the plastic compaction; zero for a failed point.
   Moduli moduli(const State& state) const {
     if (state.failed > 0) return {};
-    const double share = compaction(state);
-    return {initial.bulk + share * (compacted.bulk - initial.bulk),
-            initial.shear + share * (compacted.shear - initial.shear)};
+    const double fraction = compaction(state);
+    return {initial.bulk + fraction * (compacted.bulk - initial.bulk),
+            initial.shear + fraction * (compacted.shear - initial.shear)};
   }
   double elastic_energy(const Symmetric& stress, const State& state) const {
     if (state.failed > 0) return 0;

@@ -27,7 +27,7 @@ struct FailureStrain {
 struct JohnsonCookFailure {
   double constants[5] = {1, 0, 0, 0, 0};        // D1 … D5
   double reference_rate = 1;                    // ε̇₀, 1/s
-  double room = 0, melting = 1;                 // T_r, T_m, K
+  double reference = 0, melting = 1;            // T_r, T_m, K
   static constexpr double most = 1.5;           // limit of |σ*|
   static constexpr double least_strain = 1e-6;  // lower limit where the fit gives less
 
@@ -39,7 +39,7 @@ struct JohnsonCookFailure {
     const T triaxiality = within > -bound ? T(within / mises) : mean < 0 ? same<T>(-most) : same<T>(most);
     const T slow = constants[0] + constants[1] * exp(T(constants[2] * triaxiality));
     const T relative = rate / reference_rate, log_rate = log(relative < 1 ? same<T>(1) : relative);
-    const T relative_heat = (temperature - room) / (melting - room);
+    const T relative_heat = (temperature - reference) / (melting - reference);
     const T warm = 1 + constants[4] * (relative_heat > 0 ? relative_heat : T{});
     const T strain = slow * (1 + constants[3] * log_rate) * warm;
     return 1 / (strain >= least_strain ? strain : same<T>(least_strain));

@@ -12,8 +12,8 @@
 //   virgin_state      optional: the state of an undeformed point for output, if it is not State{}.
 //   moduli            the elastic moduli of the Cauchy stress, which bound the critical time step; with the state as
 //                     an argument if they change.
-//   elastic_energy    J per m³ of current volume, and
-//   dissipation       J per m³ of reference volume: both feed the energy ledger of a run.
+//   elastic_energy    stored energy, J per m³ of current volume.
+//   dissipation       energy dissipated so far, J per m³ of reference volume; the ledger of a run adds up both.
 //   equivalent_stress the stress that is compared with the flow stress, Pa.
 //   flow_stress       the equivalent stress at which the point yields, Pa; infinity if it never yields.
 //   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever
@@ -153,7 +153,7 @@ double stored_energy_of(const L& law, const Symmetric& stress, const typename L:
   }
 }
 
-// The state of an undeformed point, for output.
+// The state of an undeformed point as output shows it.
 template <class L>
 typename L::State virgin_state_of(const L& law) {
   if constexpr (requires { law.virgin_state(); }) {

@@ -103,19 +103,19 @@ struct SecondStack {
     stack_t other{};
     sigaltstack(nullptr, &other);
     if (!(other.ss_flags & SS_DISABLE)) return;  // the thread has one already
-    room = std::make_unique<char[]>(size);
-    const stack_t mine{.ss_sp = room.get(), .ss_flags = 0, .ss_size = size};
+    memory = std::make_unique<char[]>(size);
+    const stack_t mine{.ss_sp = memory.get(), .ss_flags = 0, .ss_size = size};
     sigaltstack(&mine, nullptr);
   }
   ~SecondStack() {
     const stack_t none{.ss_sp = nullptr, .ss_flags = SS_DISABLE, .ss_size = 0};
-    if (room) sigaltstack(&none, nullptr);
+    if (memory) sigaltstack(&none, nullptr);
   }
   SecondStack(const SecondStack&) = delete;
   SecondStack& operator=(const SecondStack&) = delete;
 
   static constexpr std::size_t size = 65536;
-  std::unique_ptr<char[]> room;
+  std::unique_ptr<char[]> memory;
 };
 
 }  // namespace

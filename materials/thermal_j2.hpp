@@ -18,7 +18,7 @@ inline constexpr double room_temperature = 293;  // K, unless a deck gives anoth
 
 struct Heating {
   double capacity = 0;                // ρ c_p of the reference state, J/(m³ K); 0: constant temperature
-  double plastic_share = 1;           // β
+  double taylor_quinney = 1;          // β
   double initial = room_temperature;  // T₀, K
 };
 
@@ -56,7 +56,7 @@ struct ThermalJ2 {
   template <class T>
   T rise(const T& plastic_work, const T& viscous_work) const {
     if (!(heating.capacity > 0)) return T{};
-    return (heating.plastic_share * plastic_work + viscous_work) / heating.capacity;
+    return (heating.taylor_quinney * plastic_work + viscous_work) / heating.capacity;
   }
   double heat(const State& state) const { return heating.capacity * (state.temperature - heating.initial); }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }

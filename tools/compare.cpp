@@ -158,13 +158,13 @@ std::vector<Difference> differences(const Series& a, const Series& b, const Tole
 // Points of other blocks may have the same values, and other materials.
 std::string block_problem(const Series& a, const Series& b) {
   if (a.blocks == b.blocks) return "";
-  const auto told = [](const Series& one) {
+  const auto described = [](const Series& one) {
     std::string text;
     for (const auto& [name, elements] : one.blocks)
       text += (text.empty() ? "" : ", ") + name + " (" + std::to_string(elements) + ")";
     return text;
   };
-  return "the first has the blocks (elements) " + told(a) + ", the second " + told(b);
+  return "the first has the blocks (elements) " + described(a) + ", the second " + described(b);
 }
 
 // Differences of structure: number of frames, their times, blocks, names, numbers of entities.

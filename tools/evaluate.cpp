@@ -29,7 +29,7 @@ double value_of(const std::string& line) {
   for (const std::string& name : strut::table_files(text))
     text = strut::with_table(text, name, strut::numbers_in_table(name));
   const strut::Expression expression = strut::Expression::compile(text);
-  if (expression.uses_place() && std::isnan(given[0])) throw strut::Error("'x', 'y' and 'z' are not variables here");
+  if (expression.uses_position() && std::isnan(given[0])) throw strut::Error("'x', 'y' and 'z' are not variables here");
   if (expression.uses_time() && std::isnan(given[3])) throw strut::Error("'t' is not a variable here");
   return expression(given[0], given[1], given[2], given[3]);
 }

@@ -136,17 +136,18 @@ const deck::Material& material_of(const deck::Deck& deck, const std::string& mat
 double temperature_of(const deck::Deck& deck, const deck::Material& material) {
   std::optional<double> found;
   bool differ = false;
-  std::ostringstream told;
+  std::ostringstream described;
   for (const deck::Block& block : deck.blocks) {
     if (&deck.materials[block.material] != &material) continue;
     const double own = block.initial_temperature.value_or(materials::room_temperature);
-    told << (found ? ", " : "") << block.name << " at " << own << " K";
+    described << (found ? ", " : "") << block.name << " at " << own << " K";
     differ = differ || (found && *found != own);
     found = own;
   }
   if (differ) {
     throw Error(deck.file.string() + ": blocks of the material " + material.name +
-                " start at different temperatures (" + told.str() + "); expected one Blocks > Initial Temperature");
+                " start at different temperatures (" + described.str() +
+                "); expected one Blocks > Initial Temperature");
   }
   return found.value_or(materials::room_temperature);
 }

@@ -24,9 +24,9 @@ struct PointPair {
 // not start under pressure from points beyond each other's horizon but within r_c, and the material between two points
 // follows its own law until it is compressed by a tenth. Between two bodies it is 1, so that bodies with a common face
 // start without pressure and without a gap.
-inline constexpr double reference_share = 0.9;
+inline constexpr double reference_fraction = 0.9;
 inline double largest_touching_distance(double radius, double reference_distance, bool one_body) {
-  return std::min(radius, (one_body ? reference_share : 1) * reference_distance);
+  return std::min(radius, (one_body ? reference_fraction : 1) * reference_distance);
 }
 
 // `overlap`: touching distance minus distance, m, never negative. The stiffness must not decrease as the overlap grows

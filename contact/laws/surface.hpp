@@ -44,7 +44,7 @@ struct Face {
                    // face have half a volume
 
   // ρ at the distance d from the face, and −dρ/dd, 1/m.
-  double share(double d) const {
+  double volume_fraction(double d) const {
     return over_layers(d, [this](double x) { return 6435.0 / 4096 / reach * std::pow(x, 7); });
   }
   double slope(double d) const {

@@ -101,20 +101,21 @@ inline Lanes BoundingVolumes::ruled_out(int n, const BoundingVolume& one, const 
   const Lanes skins = skin_.at(n) + one.skin, radii = radius_.at(n) + one.radius;
   const Lanes far = squared_length(apart) - (reach.radius + reach.slack() + skins + radii).square();
   if (reach.horizon == 0 || !small::lanes_below_zero(far)) return far;
-  Lanes xi[3], way[3], turn2 = Lanes::Zero();
+  Lanes xi[3], displacement[3], turn2 = Lanes::Zero();
   for (int k = 0; k < 3; ++k) {
     xi[k] = reference_.c[k].at(n) - one.reference[k];
-    way[k] = one.rotation(0, k) * apart[0] + one.rotation(1, k) * apart[1] + one.rotation(2, k) * apart[2] - xi[k];
+    displacement[k] =
+        one.rotation(0, k) * apart[0] + one.rotation(1, k) * apart[1] + one.rotation(2, k) * apart[2] - xi[k];
   }
   for (int k = 0; k < 9; ++k) turn2 += (rotation_[k].at(n) - one.rotation.data()[k]).square();
   const Lanes size = size_.at(n), sizes = size + one.size, spreads = spread_.at(n) + one.spread;
   const Lanes then = squared_length(xi).sqrt(), now = squared_length(apart).sqrt();
   const Lanes all_bonded = reach.horizon - (then + sizes);
   const Lanes lengths = then + now - 2 * sizes;
-  const Lanes by_place = 2 * sizes * squared_length(way).sqrt() / lengths.max(1e-3 * reach.horizon);
+  const Lanes by_place = 2 * sizes * squared_length(displacement).sqrt() / lengths.max(1e-3 * reach.horizon);
   const Lanes nearer = now - then - by_place - size * turn2.sqrt() - spreads - skins;
   const Lanes undeformed =
-      (nearer + ((1 - reference_share) * reach.horizon - reach.slack())).min(lengths - 0.5 * reach.horizon);
+      (nearer + ((1 - reference_fraction) * reach.horizon - reach.slack())).min(lengths - 0.5 * reach.horizon);
   return far.max(all_bonded).max(undeformed);
 }
 

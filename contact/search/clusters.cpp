@@ -135,10 +135,10 @@ void Clusters::add_cell(const CandidatePool& candidates, int cell) {
 // The bounding volume of members_[begin] … members_[end − 1].
 BoundingVolume Clusters::volume(const CandidatePool& candidates, std::size_t begin, std::size_t end) const {
   BoundingVolume volume{Vector::Zero(), Vector::Zero(), 0, 0, 0, 0, Tensor::Identity()};
-  const double share = 1 / static_cast<double>(end - begin);
+  const double weight = 1 / static_cast<double>(end - begin);
   for (std::size_t m = begin; m < end; ++m) {
-    volume.reference += share * reference_[m];
-    volume.place += share * place_[m];
+    volume.reference += weight * reference_[m];
+    volume.place += weight * place_[m];
     volume.skin = std::max(volume.skin, candidates.members[members_[m]].skin);
   }
   const auto over_members = [&](const auto& visit) {
@@ -182,8 +182,8 @@ void Clusters::visit_members_near(const Candidate& point, int c, const Reach& re
   // an upper bound for |ξ| ≤ (|ξ|²/δ + δ)/2.
   const auto [radius, horizon] = reach;
   const double skins = point.skin + clusters_.skin(c) + reach.slack(), most = (radius + skins) * (radius + skins);
-  const double a = reference_share * (reference_share + (horizon > 0 ? skins / horizon : 0));
-  const double b = skins * (reference_share * horizon + skins);
+  const double a = reference_fraction * (reference_fraction + (horizon > 0 ? skins / horizon : 0));
+  const double b = skins * (reference_fraction * horizon + skins);
   const int end = static_cast<int>(start_[c + 1]);
   for (int m = static_cast<int>(start_[c]); m < end; m += width) {
     Lanes eta[3], xi[3];

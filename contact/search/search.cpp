@@ -64,10 +64,10 @@ std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& bloc
   std::erase_if(near, [&](int k) {
     const int i = blocks.points[k];
     const Box& others = kinematics.domain.cloud.blocks[i] == blocks.first ? second : first;
-    const double room = others.isEmpty() ? std::numeric_limits<double>::infinity()
-                                         : others.exteriorDistance(kinematics.domain.current(i)) - radius;
-    if (room <= skins.of[k] + skins.largest) return false;
-    skins.of[k] = static_cast<float>((1 - 1e-6) * std::min({room / 2, room - skins.largest, 1e30}));  // rounding
+    const double gap = others.isEmpty() ? std::numeric_limits<double>::infinity()
+                                        : others.exteriorDistance(kinematics.domain.current(i)) - radius;
+    if (gap <= skins.of[k] + skins.largest) return false;
+    skins.of[k] = static_cast<float>((1 - 1e-6) * std::min({gap / 2, gap - skins.largest, 1e30}));  // rounding
     return true;
   });
   return near;
@@ -269,7 +269,7 @@ void bring_to_present(const Kinematics& kinematics, Pairs& pairs) {
     pairs.sites[k].current = kinematics.domain.sites[pairs.owned[k]].current;
   if (!pairs.halo) return;
   pairs.halo->set_stretch(kinematics.domain.halo.stretch());
-  pairs.halo->exchange_places(pairs.sites);
+  pairs.halo->exchange_positions(pairs.sites);
 }
 
 }  // namespace strut::contact

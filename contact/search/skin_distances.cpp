@@ -11,7 +11,7 @@ namespace {
 
 // The largest fraction of points that may be faster than the usual speed, and limits of a skin distance relative to the
 // usual one: a wider one has more partners, and slow points may become faster.
-constexpr double share_of_fast = 0.005, narrowest = 0.4, widest = 4;
+constexpr double fast_fraction = 0.005, narrowest = 0.4, widest = 4;
 
 // Searches this many steps apart cost little: no skin distance is larger than this interval requires.
 constexpr double steps_between = 32;
@@ -34,7 +34,7 @@ Vector mean(const Communicator& communicator, const Frame& frame, const Of& of) 
   return Vector(sums[0], sums[1], sums[2]) / std::max(1.0, sums[3]);
 }
 
-// Collective. A speed that at most share_of_fast of the points exceed, found in steps of a factor 2^(1/4) down from the
+// Collective. A speed that at most fast_fraction of the points exceed, found in steps of a factor 2^(1/4) down from the
 // largest.
 double usual_speed(const std::vector<double>& speeds, const Communicator& communicator) {
   double fastest[] = {0};
@@ -50,7 +50,7 @@ double usual_speed(const std::vector<double>& speeds, const Communicator& commun
   for (const double count : counts) all += count;
   for (const double count : counts) {
     faster += count;
-    if (faster > share_of_fast * all) break;
+    if (faster > fast_fraction * all) break;
     speed *= std::exp2(-0.25);
   }
   return speed;
@@ -108,11 +108,13 @@ double largest_use(const Kinematics& kinematics, const BlockPair& blocks, const 
 
 double part_used(const Kinematics& kinematics, const BlockPair& blocks, const Frame& frame,
                  std::span<const Vector> places, const SkinDistances& skins) {
-  const auto way = [&](std::size_t k) -> Vector { return kinematics.domain.current(blocks.points[k]) - places[k]; };
-  const Vector together = mean(kinematics.domain.communicator, frame, way);
+  const auto displacement = [&](std::size_t k) -> Vector {
+    return kinematics.domain.current(blocks.points[k]) - places[k];
+  };
+  const Vector together = mean(kinematics.domain.communicator, frame, displacement);
   double most[] = {0};
   for (std::size_t k = 0; k < places.size(); ++k) {
-    most[0] = std::max(most[0], (way(k) - together).norm() / skins.of[k]);
+    most[0] = std::max(most[0], (displacement(k) - together).norm() / skins.of[k]);
   }
   kinematics.domain.communicator.max(most);
   return most[0];

@@ -206,7 +206,7 @@ std::string improbable_stretches(const Situation& situation) {
   std::ostringstream text;
   for (const deck::NamedDamageModel& model : situation.deck.damage_models) {
     const auto& critical = model.model.critical_stretch;
-    if (!critical || critical->depends_on_place() || critical->depends_on_time()) continue;
+    if (!critical || critical->depends_on_position() || critical->depends_on_time()) continue;
     const double value = critical->evaluate(0, 0, 0, situation.start);
     if (!(value > 1)) continue;
     text << "WARNING: " << critical->path() << ": " << value << ", so bonds break at " << 1 + value

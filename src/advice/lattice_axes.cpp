@@ -24,33 +24,33 @@ Vector nearest_neighbor(const Domain& domain, int i, const Off& off) {
   return nearest;
 }
 
-// The ways to the nearest neighbors of lattice_axes(); zero for those that there are not.
-Tensor ways_to_nearest(const Domain& domain, int i) {
-  Tensor ways = Tensor::Zero();
-  ways.col(0) = nearest_neighbor(domain, i, [](const Vector&) { return 1; });
-  const Vector first = ways.col(0).stableNormalized();
-  ways.col(1) = nearest_neighbor(domain, i, [&](const Vector& u) { return u.cross(first).norm(); });
-  if (ways.col(1).isZero(0)) return ways;
-  const Vector normal = ways.col(0).cross(ways.col(1)).stableNormalized();
-  ways.col(2) = nearest_neighbor(domain, i, [&](const Vector& u) { return std::abs(u.dot(normal)); });
-  return ways;
+// The vectors to the nearest neighbors of lattice_axes(); zero for those that there are not.
+Tensor nearest_neighbors(const Domain& domain, int i) {
+  Tensor to_neighbors = Tensor::Zero();
+  to_neighbors.col(0) = nearest_neighbor(domain, i, [](const Vector&) { return 1; });
+  const Vector first = to_neighbors.col(0).stableNormalized();
+  to_neighbors.col(1) = nearest_neighbor(domain, i, [&](const Vector& u) { return u.cross(first).norm(); });
+  if (to_neighbors.col(1).isZero(0)) return to_neighbors;
+  const Vector normal = to_neighbors.col(0).cross(to_neighbors.col(1)).stableNormalized();
+  to_neighbors.col(2) = nearest_neighbor(domain, i, [&](const Vector& u) { return std::abs(u.dot(normal)); });
+  return to_neighbors;
 }
 
-// The longest of three ways over the least distance of the planes of two of them; 0 where one is missing.
-double unevenness(const Tensor& ways) {
+// The longest of three vectors over the least distance of the planes of two of them; 0 where one is missing.
+double unevenness(const Tensor& to_neighbors) {
   double longest = 0, largest = 0;
   for (int c = 0; c < 3; ++c) {
-    longest = std::max(longest, ways.col(c).norm());
-    largest = std::max(largest, ways.col(c).cross(ways.col((c + 1) % 3)).norm());
+    longest = std::max(longest, to_neighbors.col(c).norm());
+    largest = std::max(largest, to_neighbors.col(c).cross(to_neighbors.col((c + 1) % 3)).norm());
   }
-  const double volume = std::abs(ways.determinant());
+  const double volume = std::abs(to_neighbors.determinant());
   return volume > 0 ? longest * largest / volume : 0;
 }
 
 }  // namespace
 
 Tensor lattice_axes(const Domain& domain, int i) {
-  Tensor axes = ways_to_nearest(domain, i);
+  Tensor axes = nearest_neighbors(domain, i);
   if (axes.col(1).isZero(0)) return Tensor::Zero();
   if (axes.col(2).isZero(0)) axes.col(2) = axes.col(0).cross(axes.col(1));
   for (int c = 0; c < 3; ++c) axes.col(c).stableNormalize();
@@ -68,7 +68,7 @@ std::vector<double> unevenness_of_lattices(const Body& body) {
     for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / enough) {
       const int i = points[k];
       const bool is_known = domain.cloud.at == PointsAt::nodes || has_whole_cell(domain, i);
-      const double found = is_known && !body.has_lost_bonds(i) ? unevenness(ways_to_nearest(domain, i)) : 0;
+      const double found = is_known && !body.has_lost_bonds(i) ? unevenness(nearest_neighbors(domain, i)) : 0;
       if (found > 0) sums[b] += found, sums[blocks + b] += 1;
     }
   }

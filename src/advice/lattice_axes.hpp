@@ -12,8 +12,8 @@ namespace strut {
 // where all neighbors stand on one line.
 Tensor lattice_axes(const Domain& domain, int i);
 
-// Collective. For each block the mean of how many times as long the longest of the ways to these three neighbors is as
-// the least distance of layers that they make: 1 for cubes, 2 for cells twice as long as wide. The mean is that of
+// Collective. For each block the mean of how many times as long the longest of the vectors to these three neighbors is
+// as the least distance of layers that they make: 1 for cubes, 2 for cells twice as long as wide. The mean is that of
 // points of an ordinary solid with whole cells, all their bonds and three such neighbors; 0 without any.
 std::vector<double> unevenness_of_lattices(const Body& body);
 constexpr double uneven_from = 1.1;

@@ -55,7 +55,7 @@ Tensor counts_of_strain(const Body& body, int i) {
 }
 
 // For blocks whose points are all near surfaces, as in struts: their counts of strain would show surfaces, too.
-std::string told_of_uneven_members(const MaterialBlock& block, double uneven) {
+std::string uneven_members_warning(const MaterialBlock& block, double uneven) {
   if (!block.is_ordinary() || uneven < uneven_from) return "";
   return text_of(std::setprecision(2), "WARNING: block '", block.name,
                  "': its points are not on a cubic lattice (cells oblong or oblique by a factor of ", uneven,
@@ -83,7 +83,7 @@ std::string uneven_dilatation(const Situation& situation) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     body.domain.communicator.sum(std::span<double>(sums[b].data(), 9));
     if (!(sums[b].trace() > 0)) {
-      text << told_of_uneven_members(body.blocks[b], situation.unevenness[b]);
+      text << uneven_members_warning(body.blocks[b], situation.unevenness[b]);
       continue;
     }
     for (const Mirror& mirror : body.domain.mirrors) {  // the images count, too
@@ -144,7 +144,7 @@ bool has_fracture_energy(const MaterialBlock& block) {
 }
 
 // A warning for each block whose cracks have the constants of its largest cells, but whose cells differ.
-std::string told_of_unequal_cells(const Situation& situation) {
+std::string unequal_cells_warning(const Situation& situation) {
   constexpr double worth_saying = 1.25;
   const Body& body = situation.scene.body;
   std::string text;
@@ -188,7 +188,7 @@ std::string oblong_cells(const Situation& situation) {
            << "it was found at ratios of 2 and 3)";
     text << "; expected cubes\n";
   }
-  text << told_of_unequal_cells(situation);
+  text << unequal_cells_warning(situation);
   return text.str();
 }
 

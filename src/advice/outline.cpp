@@ -218,12 +218,12 @@ std::string two_temperature_scales(const MaterialBlock& block, const materials::
   const materials::JohnsonCookSoftening* softening = softening_of(metal);
   if (!failure || !softening || failure->constants[4] == 0) return "";
   const double span = softening->melting - softening->reference;
-  if (std::abs(failure->room - softening->reference) <= differs * span &&
+  if (std::abs(failure->reference - softening->reference) <= differs * span &&
       std::abs(failure->melting - softening->melting) <= differs * span)
     return "";
   return text_of("WARNING: block '", block.name, "' softens between a Reference Temperature of ", softening->reference,
                  " K and a Melting Temperature of ", softening->melting, " K, and D5 of its Damage Model acts between ",
-                 failure->room, " and ", failure->melting, " K: they are of one metal; expected the same\n");
+                 failure->reference, " and ", failure->melting, " K: they are of one metal; expected the same\n");
 }
 
 double flow_stress_at(materials::ThermalJ2 metal, double temperature) {
@@ -252,7 +252,7 @@ std::string temperatures_below_zero(const Situation& situation) {
 }  // namespace
 
 std::string improbable_temperatures(const Situation& situation) {
-  constexpr double room = materials::room_temperature;
+  constexpr double at_room = materials::room_temperature;
   constexpr double cold = 150;            // K: few tests are colder, and temperatures in °C are lower
   constexpr double below_reference = 25;  // K: room temperatures differ by less
   constexpr double melted = 1e-3;         // of the flow stress at room temperature
@@ -264,7 +264,7 @@ std::string improbable_temperatures(const Situation& situation) {
     if (!metal) continue;
     const double initial = metal->heating.initial, reference = reference_temperature(*metal);
     const std::string begins = "WARNING: block '" + block.name + "' has an Initial Temperature of ";
-    if (flow_stress_at(*metal, initial) <= melted * flow_stress_at(*metal, room)) {
+    if (flow_stress_at(*metal, initial) <= melted * flow_stress_at(*metal, at_room)) {
       text << begins << initial << " K, at which its metal is molten: its flow stress is "
            << flow_stress_at(*metal, initial) << " Pa; is it in K?\n";
     } else if (initial < cold) {

@@ -256,12 +256,12 @@ AtOtherParts at_other_parts(const Domain& domain, const deck::Deck& deck) {
   return found;
 }
 
-std::string told_of_parts(const Body& body, const deck::Deck& deck, bool crowds_are_told) {
+std::string parts_warning(const Body& body, const deck::Deck& deck, bool crowds_reported) {
   const AtOtherParts found = at_other_parts(body.domain, deck);
   const std::vector<FoundPoints> points = found_points(body, {found.inside, found.beside});
   const FoundPoints &inside = points[0], &beside = points[1];
   std::ostringstream text;
-  if (inside.count > 0 && !crowds_are_told) {
+  if (inside.count > 0 && !crowds_reported) {
     text << "WARNING: " << inside.count << " points, one of them at " << place_text(inside.one) << ", are nearer than "
          << inside_below
          << " of an element's edge to others of their body with which they share no node: elements that "
@@ -285,7 +285,7 @@ std::string overlaps(const Situation& situation) {
   // Cells of a grid do not overlap, and boxes of them hold more than the horizon.
   if (situation.deck.discretization.type != deck::MeshType::grid) {
     const std::string crowded_points = crowds(body, situation.scene.pieces);
-    text << crowded_points << told_of_parts(body, situation.deck, !crowded_points.empty());
+    text << crowded_points << parts_warning(body, situation.deck, !crowded_points.empty());
   }
   for (const auto& [first, second, points] : contact::overlapping_blocks(domain)) {
     const FoundPoints found = found_points(body, {points})[0];

@@ -92,7 +92,7 @@ std::vector<double> times_of(const Situation& situation, const std::vector<Held>
     const auto* motion = std::get_if<PrescribedMotion>(&situation.deck.conditions[one.condition].kind);
     if (motion) add(motion->value, one.points);
   }
-  return looks_at(std::move(changes), start, situation.duration);
+  return sample_times(std::move(changes), start, situation.duration);
 }
 
 // For each tool and condition: the time of the first contact, and the points met.
@@ -108,15 +108,15 @@ Vector pressed(const RigidTool& tool, double time) {
   return force.allFinite() ? Vector(2 * deep * force.stableNormalized()) : Vector(Vector::Zero());
 }
 
-void look(const RigidTool& tool, int n, const std::vector<Held>& held, const Body& body,
-          const std::vector<Vector>& ways, double time, Meetings& met) {
+void note_meetings(const RigidTool& tool, int n, const std::vector<Held>& held, const Body& body,
+                   const std::vector<Vector>& displacements, double time, Meetings& met) {
   const Vector offset = tool.offset(time), press = pressed(tool, time);
   for (const Held& one : held) {
     for (const int i : one.points) {
       if (!std::binary_search(tool.points.begin(), tool.points.end(), i)) continue;
       const auto [X, is_face] = place_of(one, i, body.domain);
       const Vector place =
-          tool.nearest_image(body.domain, X + ways[i] - offset - body.domain.cloud.spacings[i] * press);
+          tool.nearest_image(body.domain, X + displacements[i] - offset - body.domain.cloud.spacings[i] * press);
       const auto met_by = [&](const auto& shape) {
         return is_face ? surface(shape, place) : tool.met_by(i, shape, place);
       };
@@ -137,7 +137,7 @@ std::vector<std::array<double, 2>> free_points(const Situation& situation, const
   std::vector<std::uint8_t> is_held(domain.owned, 0);
   for (const Held& one : held) {
     const auto* motion = std::get_if<PrescribedMotion>(&situation.deck.conditions[one.condition].kind);
-    if (std::abs(one.direction[period.axis]) < one.part || (motion && motion->value.depends_on_place())) continue;
+    if (std::abs(one.direction[period.axis]) < one.part || (motion && motion->value.depends_on_position())) continue;
     for (const int i : one.points) is_held[i] = 1;
   }
   std::vector<double> shifts(domain.sites.size(), 0);
@@ -226,14 +226,14 @@ std::string overruled_motions(const Situation& situation) {
   const std::vector<Held> held = held_directions(deck, body.domain.cloud);
   if (tools.empty() || held.empty()) return "";
   Meetings met;
-  std::vector<Vector> ways(body.owned());
-  for (int i = 0; i < body.owned(); ++i) ways[i] = body.displacement(i);  // other than 0 after Start From
+  std::vector<Vector> displacements(body.owned());
+  for (int i = 0; i < body.owned(); ++i) displacements[i] = body.displacement(i);  // other than 0 after Start From
   const std::vector<double> times = times_of(situation, held);
   for (std::size_t k = 1; k < times.size(); ++k) {
     const double time = times[k];
-    move_on(scene.conditions, body.domain, time, time - times[k - 1], ways);
+    move_on(scene.conditions, body.domain, time, time - times[k - 1], displacements);
     for (std::size_t n = 0; n < tools.size(); ++n) {
-      look(tools[n], static_cast<int>(n), held, body, ways, time, met);
+      note_meetings(tools[n], static_cast<int>(n), held, body, displacements, time, met);
     }
   }
   const int count = static_cast<int>(deck.conditions.size());

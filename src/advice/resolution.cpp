@@ -50,8 +50,8 @@ std::string resolution_of_thin(const materials::AnyLaw& law, double thickness, b
          "; tools/study --converge spacing measures it (docs/resolution.md)";
 }
 
-std::string told_of_thin(const MaterialBlock& block, Influence influence, double horizon, double thickness, bool whole,
-                         bool cubic) {
+std::string thin_members_text(const MaterialBlock& block, Influence influence, double horizon, double thickness,
+                              bool whole, bool cubic) {
   switch (block.material.formulation) {
     case Formulation::ordinary:  // measured on cubes; uneven_dilatation() tells of others
       return cubic ? stiffness_of_thin(influence, horizon, thickness) : "";
@@ -90,8 +90,8 @@ std::string thin_members(const Situation& situation) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const double spacing = body.domain.blocks[b].spacing;
     const double horizon = spacing > 0 ? body.domain.blocks[b].largest / spacing : 0;
-    const std::string found =
-        told_of_thin(body.blocks[b], body.influence, horizon, all[b], whole[b], situation.unevenness[b] < uneven_from);
+    const std::string found = thin_members_text(body.blocks[b], body.influence, horizon, all[b], whole[b],
+                                                situation.unevenness[b] < uneven_from);
     if (found.empty()) continue;
     text << "block '" << body.blocks[b].name << "': members are " << all[b] << " spacings thick (4 volume/surface); "
          << found << "\n";

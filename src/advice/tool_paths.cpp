@@ -13,7 +13,7 @@ namespace strut {
 
 namespace {
 
-constexpr int looks = 100;  // samples of a tool's path
+constexpr int samples = 100;  // samples of a tool's path
 
 // ---- Tools that are apart ------------------------------------------------------------------------------------------
 
@@ -35,8 +35,8 @@ std::optional<double> first_touch(const RigidTool& tool, const Body& body, const
   double fastest = 0;
   for (const int i : tool.points) fastest = std::max(fastest, velocities[i].norm());
   fastest = body.domain.communicator.max(fastest);
-  for (int k = 1; k <= looks; ++k) {
-    const double before = duration * (k - 1) / looks, now = duration * k / looks;
+  for (int k = 1; k <= samples; ++k) {
+    const double before = duration * (k - 1) / samples, now = duration * k / samples;
     gap -= fastest * (now - before) + (tool.offset(start + now) - tool.offset(start + before)).norm();
     if (gap > 0) continue;
     gap = smallest_gap(tool, body, velocities, start, now);
@@ -50,8 +50,8 @@ bool goes_on(const OfTime& of_time, bool is_velocity, double start, double durat
   constexpr double alike = 1e-6;
   const double first = of_time(start), moment = first_moment * duration;
   const double speed = is_velocity ? 0 : (of_time(start + moment) - first) / moment;
-  for (int k = 1; k <= looks; ++k) {
-    const double after = duration * k / looks, value = of_time(start + after);
+  for (int k = 1; k <= samples; ++k) {
+    const double after = duration * k / samples, value = of_time(start + after);
     const double off = std::abs(value - first - speed * after);
     if (off > alike * std::max(std::abs(value), std::abs(first))) return false;
   }
@@ -76,17 +76,18 @@ constexpr double least_width = 1.5;  // spacings
 constexpr double as_good_as_none = 1e-6;
 
 // The range of a tool's displacements from its initial position.
-Extent ways_of(const RigidTool& tool, double start, double duration) {
-  Extent ways;
-  for (int k = 0; k <= looks; ++k) ways.extend(Vector(tool.offset(start + duration * k / looks) - tool.offset(start)));
-  return ways;
+Extent displacements_of(const RigidTool& tool, double start, double duration) {
+  Extent displacements;
+  for (int k = 0; k <= samples; ++k)
+    displacements.extend(Vector(tool.offset(start + duration * k / samples) - tool.offset(start)));
+  return displacements;
 }
 
 Extent moved(const Extent& box, const Extent& by) { return {box.min() + by.min(), box.max() + by.max()}; }
 
 struct Meeting {
-  Extent tool, block, ways;  // initial boxes of both; displacements of the tool relative to the block
-  Vector spacings;           // m, of the block's layers along each axis
+  Extent tool, block, displacements;  // initial boxes of both; displacements of the tool relative to the block
+  Vector spacings;                    // m, of the block's layers along each axis
 };
 
 // The axes along which the tool approaches the block: those along which they are apart and in relative motion; else
@@ -97,7 +98,7 @@ std::vector<int> axes_of_approach(const Meeting& meeting) {
   for (int c = 0; c < 3; ++c) {
     const double gap =
         std::max(meeting.tool.min()[c] - meeting.block.max()[c], meeting.block.min()[c] - meeting.tool.max()[c]);
-    const bool is_apart = gap >= -none, moves = meeting.ways.sizes()[c] > none;
+    const bool is_apart = gap >= -none, moves = meeting.displacements.sizes()[c] > none;
     if (is_apart) apart.push_back(c);
     if (moves) moving.push_back(c);
     if (is_apart && moves) both.push_back(c);
@@ -129,13 +130,13 @@ Thin thin(const HalfSpace&, const RigidTool&, const Trajectory&, const Vector&, 
 
 Thin thin(const Box& box, const RigidTool& tool, const Trajectory& block, const Vector& spacings, double start,
           double duration) {
-  const Extent tool_ways = ways_of(tool, start, duration), &block_ways = block.ways;
+  const Extent of_tool = displacements_of(tool, start, duration), &of_block = block.displacements;
   Extent at_start(box.lower, box.upper);
   at_start.translate(tool.offset(start));
-  Extent swept = moved(block.places, block_ways);
+  Extent swept = moved(block.places, of_block);
   swept = {swept.min() - spacings, swept.max() + spacings};
-  if (!moved(at_start, tool_ways).intersects(swept)) return {};
-  const Extent relative{tool_ways.min() - block_ways.max(), tool_ways.max() - block_ways.min()};
+  if (!moved(at_start, of_tool).intersects(swept)) return {};
+  const Extent relative{of_tool.min() - of_block.max(), of_tool.max() - of_block.min()};
   const int axis = thin_axis({at_start, block.places, relative, spacings});
   if (axis < 0) return {};
   return {at_start.sizes()[axis], spacings[axis], std::string("wide along ") + "xyz"[axis]};
@@ -147,10 +148,10 @@ Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, 
   const Vector across = (1 - roll.axis.array().square()).max(0).sqrt();  // parts of the axes across that of the roll
   const double spacing = across.cwiseProduct(spacings).maxCoeff();
   if (2 * roll.radius >= least_width * spacing) return {};
-  const Extent swept = moved(block.places, block.ways);
+  const Extent swept = moved(block.places, block.displacements);
   const double around = 0.5 * swept.diagonal().norm() + spacing;
-  for (int k = 0; k <= looks; ++k) {
-    const Vector from = swept.center() - tool.offset(start + duration * k / looks);
+  for (int k = 0; k <= samples; ++k) {
+    const Vector from = swept.center() - tool.offset(start + duration * k / samples);
     if (surface(roll, from).gap < around) return {2 * roll.radius, spacing, "in diameter"};
   }
   return {};
@@ -233,14 +234,14 @@ std::string meeting_tools(const Situation& situation) {
   for (std::size_t n = 0; n < tools.size(); ++n) {
     for (std::size_t m = 0; m < n; ++m) {
       if (!may_meet(tools[m], tools[n]) || gap_between(tools[m], tools[n], start) < 0) continue;
-      const auto met = [&](int k) { return gap_between(tools[m], tools[n], start + duration * k / looks) < 0; };
+      const auto met = [&](int k) { return gap_between(tools[m], tools[n], start + duration * k / samples) < 0; };
       const double until = std::min(stopped[m], stopped[n]);
       int k = 1;
-      while (k <= looks && duration * k / looks <= until * (1 + as_good_as_none) && !met(k)) ++k;
-      if (k > looks || duration * k / looks > until * (1 + as_good_as_none)) continue;
+      while (k <= samples && duration * k / samples <= until * (1 + as_good_as_none) && !met(k)) ++k;
+      if (k > samples || duration * k / samples > until * (1 + as_good_as_none)) continue;
       text
           << "WARNING: the tools '" << scene.tools[m].name << "' and '" << scene.tools[n].name
-          << "' meet by about t = " << start + duration * k / looks
+          << "' meet by about t = " << start + duration * k / samples
           << " s, by their paths and the velocities of the start, and pass through each other: tools stop points only; "
              "expected material between them, or an end before (Final Time)\n";
     }

@@ -36,14 +36,15 @@ void restrict_to_overlap(const Trajectory& low, const Trajectory& high, int axis
   restrict_to_overlap(!touch ? apart : stay ? of_points : 0, speed, from, to);
 }
 
-// True if ways along an axis are too short for the cells of a block below another one to get there.
+// True if displacements along an axis are too short for the cells of a block below another one to get there.
 bool stay_apart(const Trajectory& low, const Trajectory& high, int axis) {
-  return low.cells.max()[axis] + low.ways.max()[axis] < high.cells.min()[axis] + high.ways.min()[axis];
+  return low.cells.max()[axis] + low.displacements.max()[axis] <
+         high.cells.min()[axis] + high.displacements.min()[axis];
 }
 
 // Collective. The range of each point's displacements from its place at the start.
-std::vector<Eigen::AlignedBox3d> ways_of_points(const Scene& scene, const std::vector<Vector>& velocities, double start,
-                                                double duration) {
+std::vector<Eigen::AlignedBox3d> displacements_of_points(const Scene& scene, const std::vector<Vector>& velocities,
+                                                         double start, double duration) {
   const Body& body = scene.body;
   std::vector<Eigen::AlignedBox3d> all(body.owned(), Eigen::AlignedBox3d(Vector::Zero()));
   for (int i = 0; i < body.owned(); ++i) all[i].extend(Vector(duration * velocities[i]));
@@ -58,16 +59,17 @@ std::vector<Eigen::AlignedBox3d> ways_of_points(const Scene& scene, const std::v
     }
   });
   if (!any) return all;
-  std::vector<Vector> ways(body.owned());
-  for (int i = 0; i < body.owned(); ++i) ways[i] = body.displacement(i);
-  const std::vector<double> times = looks_at(std::move(changes), start, duration);
+  std::vector<Vector> displacements(body.owned());
+  for (int i = 0; i < body.owned(); ++i) displacements[i] = body.displacement(i);
+  const std::vector<double> times = sample_times(std::move(changes), start, duration);
   for (std::size_t k = 1; k < times.size(); ++k) {
-    move_on(scene.conditions, body.domain, times[k], times[k] - times[k - 1], ways);
+    move_on(scene.conditions, body.domain, times[k], times[k] - times[k - 1], displacements);
     scene.conditions.visit([&](const PrescribedMotion& one) {
       for (const int i : one.points) {
-        const Vector way = ways[i] - body.displacement(i);
+        const Vector moved_by = displacements[i] - body.displacement(i);
         for (const int c : one.components) {
-          all[i].min()[c] = std::min(all[i].min()[c], way[c]), all[i].max()[c] = std::max(all[i].max()[c], way[c]);
+          all[i].min()[c] = std::min(all[i].min()[c], moved_by[c]),
+          all[i].max()[c] = std::max(all[i].max()[c], moved_by[c]);
         }
       }
     });
@@ -103,7 +105,7 @@ Trajectory along(const Tensor& axes, const Body& body, int block, const Trajecto
   for (int k = 0; k < 8; ++k) {
     const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(k);
     seen.velocities.extend(axes.transpose() * in_space.velocities.corner(corner));
-    seen.ways.extend(axes.transpose() * in_space.ways.corner(corner));
+    seen.displacements.extend(axes.transpose() * in_space.displacements.corner(corner));
   }
   return seen;
 }
@@ -139,21 +141,23 @@ Tensor axes_along(const Vector& direction) {
 
 }  // namespace
 
-void move_on(const Conditions& conditions, const Domain& domain, double time, double step, std::vector<Vector>& ways) {
+void move_on(const Conditions& conditions, const Domain& domain, double time, double step,
+             std::vector<Vector>& displacements) {
   conditions.visit([&](const PrescribedMotion& one) {
     for (const int i : one.points) {
       const Vector X = domain.reference(i);
       const double value = one.value.evaluate(X, one.is_velocity ? time - 0.5 * step : time);
-      for (const int c : one.components) ways[i][c] = one.is_velocity ? ways[i][c] + step * value : value;
+      for (const int c : one.components)
+        displacements[i][c] = one.is_velocity ? displacements[i][c] + step * value : value;
     }
   });
 }
 
-std::vector<double> looks_at(std::vector<double> changes, double start, double duration) {
-  constexpr int looks = 64;  // evenly, and as many changes at most
+std::vector<double> sample_times(std::vector<double> changes, double start, double duration) {
+  constexpr int samples = 64;  // evenly, and as many changes at most
   std::ranges::sort(changes);
-  std::vector<double> times = thinned(changes, looks);
-  for (int k = 0; k <= looks; ++k) times.push_back(start + duration * k / looks);
+  std::vector<double> times = thinned(changes, samples);
+  for (int k = 0; k <= samples; ++k) times.push_back(start + duration * k / samples);
   std::ranges::sort(times);
   return times;
 }
@@ -168,15 +172,16 @@ std::vector<Trajectory> trajectories(const Scene& scene, double start, double du
   std::vector<Trajectory> all(domain.cloud.block_names.size());
   const std::vector<Vector> velocities =
       predicted_velocities(scene.conditions, start, first_moment * duration, scene.body);
-  const std::vector<Eigen::AlignedBox3d> ways = ways_of_points(scene, velocities, start, duration);
+  const std::vector<Eigen::AlignedBox3d> displacements = displacements_of_points(scene, velocities, start, duration);
   for (int i = 0; i < domain.owned; ++i) {
     Trajectory& trajectory = all[domain.cloud.blocks[i]];
     trajectory.velocities.extend(velocities[i]);
-    trajectory.ways.extend(ways[i]);
+    trajectory.displacements.extend(displacements[i]);
     extend(trajectory, scene.body, i, Tensor::Identity());
   }
   for (Trajectory& trajectory : all) {
-    for (Eigen::AlignedBox3d* box : {&trajectory.places, &trajectory.cells, &trajectory.velocities, &trajectory.ways})
+    for (Eigen::AlignedBox3d* box :
+         {&trajectory.places, &trajectory.cells, &trajectory.velocities, &trajectory.displacements})
       *box = common_box(*box, domain.communicator);
   }
   return all;

@@ -25,8 +25,8 @@ struct Snapshot {
     std::vector<Column> columns;
   };
   std::vector<Group> groups;
-  std::map<std::string, double> numbers;  // the same on all ranks
-  std::map<std::string, double> shares;   // per-rank sums: only their totals over all ranks have a meaning
+  std::map<std::string, double> numbers;    // the same on all ranks
+  std::map<std::string, double> rank_sums;  // per-rank sums: only their totals over all ranks have a meaning
 };
 
 class Archive {
@@ -73,7 +73,7 @@ class Archive {
   void number(const std::string& name, T& value) {
     pass(value, entry(snapshot_.numbers, name));
   }
-  void share(const std::string& name, double& value) { pass(value, entry(snapshot_.shares, name)); }
+  void rank_sum(const std::string& name, double& value) { pass(value, entry(snapshot_.rank_sums, name)); }
 
  private:
   Archive(Snapshot& snapshot, bool restores) : snapshot_(snapshot), restores_(restores) {}

@@ -27,9 +27,9 @@ class Deduplicated {
     which_.reserve(all.size());
     for (const T& value : all) {
       const int next = static_cast<int>(values_.size());
-      const int place = known.emplace(bits_of(value), next).first->second;
-      if (place == next) values_.push_back(value);
-      which_.push_back(place);
+      const int index = known.emplace(bits_of(value), next).first->second;
+      if (index == next) values_.push_back(value);
+      which_.push_back(index);
     }
     if (4 * values_.size() < 3 * all.size()) {
       values_.shrink_to_fit();

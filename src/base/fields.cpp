@@ -14,18 +14,18 @@ double FieldSet::bytes() const {
   return sum;
 }
 
-void FieldSet::serialize(Archive& archive, const Places& places) {
+void FieldSet::serialize(Archive& archive, const FieldIndices& indices) {
   for (const auto& field : fields_) {
     if (!field->in_use) continue;
-    const int count = field->at == At::integration_point ? places.count : 1;
+    const int count = field->at == At::integration_point ? indices.count : 1;
     int first = 0;
     for (const FieldPart& part : field->parts) {
-      const auto place = [&](std::size_t k, int c) { return count > 1 ? places.place(k, c / part.width) : k; };
+      const auto index = [&](std::size_t k, int c) { return count > 1 ? indices.index(k, c / part.width) : k; };
       const auto number = [&](int c) { return first + c % part.width; };
-      if (part.kept) {
+      if (part.persistent) {
         archive.numbers(
-            part.name, count * part.width, [&](std::size_t k, int c) { return field->number(place(k, c), number(c)); },
-            [&](std::size_t k, int c, double value) { field->set_number(place(k, c), number(c), value); });
+            part.name, count * part.width, [&](std::size_t k, int c) { return field->number(index(k, c), number(c)); },
+            [&](std::size_t k, int c, double value) { field->set_number(index(k, c), number(c), value); });
       }
       first += part.width;
     }

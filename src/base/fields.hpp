@@ -20,13 +20,13 @@ enum class At { point, integration_point };
 
 // Numbers of a value that belong together: a scalar, a vector, a tensor; in a record, one of its members.
 struct FieldPart {
-  std::string name;      // in checkpoints
-  std::string unit;      // SI; "1" for none
-  std::string meaning;   // for the page of output variables
-  bool kept = false;     // in checkpoints: later steps depend on it
-  std::string variable;  // its name as an output variable; empty: it is not one
-  bool nodal = false;    // in the Exodus file: nodal, else of elements
-  int width = 0;         // number of components; 0: given by the type
+  std::string name;         // in checkpoints
+  std::string unit;         // SI; "1" for none
+  std::string meaning;      // for the page of output variables
+  bool persistent = false;  // in checkpoints: later steps depend on it
+  std::string variable;     // its name as an output variable; empty: it is not one
+  bool nodal = false;       // in the Exodus file: nodal, else of elements
+  int width = 0;            // number of components; 0: given by the type
 };
 
 // The n-th number in a value: a number, a vector or tensor, or a record that lists its members as `numbers`. For other
@@ -48,8 +48,8 @@ class AnyField {
   virtual ~AnyField() = default;
   virtual void resize(std::size_t size) = 0;  // resets all values: zero, or their type's default
   virtual double bytes() const = 0;
-  virtual double number(std::size_t place, int n) const = 0;
-  virtual void set_number(std::size_t place, int n, double number) = 0;
+  virtual double number(std::size_t index, int n) const = 0;
+  virtual void set_number(std::size_t index, int n, double number) = 0;
 
   const At at;
   std::vector<FieldPart> parts;
@@ -74,10 +74,10 @@ class FieldOf : public AnyField {
       return static_cast<double>(values.size() * sizeof(values[0]));
     }
   }
-  double number(std::size_t place, int n) const override { return static_cast<double>(at_place(values, place, n)); }
-  void set_number(std::size_t place, int n, double number) override {
-    using Number = std::remove_reference_t<decltype(at_place(values, place, n))>;
-    if constexpr (!std::is_const_v<Number>) at_place(values, place, n) = static_cast<Number>(number);
+  double number(std::size_t index, int n) const override { return static_cast<double>(at_index(values, index, n)); }
+  void set_number(std::size_t index, int n, double number) override {
+    using Number = std::remove_reference_t<decltype(at_index(values, index, n))>;
+    if constexpr (!std::is_const_v<Number>) at_index(values, index, n) = static_cast<Number>(number);
   }
 
   Values values;
@@ -92,11 +92,11 @@ class FieldOf : public AnyField {
     }
   }
   template <class Own>
-  static decltype(auto) at_place(Own& own, std::size_t place, int n) {
-    if constexpr (requires { own.at(place, n); }) {
-      return own.at(place, n);
+  static decltype(auto) at_index(Own& own, std::size_t index, int n) {
+    if constexpr (requires { own.at(index, n); }) {
+      return own.at(index, n);
     } else {
-      return number_of(own[place], n);
+      return number_of(own[index], n);
     }
   }
 };
@@ -132,10 +132,10 @@ class FieldRef {
   std::size_t size() const { return field_->values.size(); }
   bool empty() const { return field_->values.empty(); }
   // Takes the field into use, to be called on all ranks; the arguments are those of the container's resize().
-  template <class... Room>
-  void use(Room&&... room) {
+  template <class... Size>
+  void use(Size&&... sizes) {
     field_->in_use = true;
-    field_->values.resize(std::forward<Room>(room)...);
+    field_->values.resize(std::forward<Size>(sizes)...);
   }
   void set_parts(std::vector<FieldPart> parts) { field_->parts = std::move(parts); }
 
@@ -146,9 +146,9 @@ template <class T>
 using PointField = FieldRef<std::vector<T>>;
 
 // Where a field has its values: place(k, q) is the index of the k-th point's q-th of `count` integration points.
-struct Places {
+struct FieldIndices {
   int count = 1;
-  std::function<std::size_t(std::size_t k, int q)> place = [](std::size_t k, int) { return k; };
+  std::function<std::size_t(std::size_t k, int q)> index = [](std::size_t k, int) { return k; };
 };
 
 // `if_used`: the field exists only in scenes that use it.
@@ -173,8 +173,8 @@ class FieldSet {
   const std::vector<std::unique_ptr<AnyField>>& all() const { return fields_; }
   void resize(std::size_t points);  // the fields of points that are in use
   double bytes() const;
-  // Saves or restores the fields that are kept; the archive must be at the group of the points.
-  void serialize(Archive& archive, const Places& places = {});
+  // Saves or restores the persistent fields; the archive must be at the group of the points.
+  void serialize(Archive& archive, const FieldIndices& indices = {});
 
  private:
   template <class T>

@@ -82,7 +82,7 @@ Checkpoint::~Checkpoint() {
 }
 
 void Checkpoint::close() {
-  if (!due_at_the_end()) remove();
+  if (!is_scheduled_at_end()) remove();
 }
 
 // The present state defines what must be in the file.
@@ -108,9 +108,11 @@ void Checkpoint::remove() {
   if (settings_.enabled || has_left_over_) io::remove_checkpoint(settings_.file, communicator_);
 }
 
-bool Checkpoint::due(int step, double time) const { return step > last_step_ && schedule_.due(step, time); }
+bool Checkpoint::is_scheduled(int step, double time) const {
+  return step > last_step_ && schedule_.is_scheduled(step, time);
+}
 
-bool Checkpoint::due_by_the_clock() const {
+bool Checkpoint::is_scheduled_by_clock() const {
   return settings_.enabled &&
          std::chrono::steady_clock::now() - last_ > std::chrono::duration<double>(60 * settings_.minutes);
 }
@@ -131,7 +133,7 @@ void Checkpoint::write(int step, double time) {
 }
 
 std::string Checkpoint::kept() const {
-  if (!due_at_the_end()) return "";
+  if (!is_scheduled_at_end()) return "";
   return settings_.file.string() + " keeps the state at the end (Start From, or --continue to a later Final Time)\n";
 }
 

@@ -39,9 +39,9 @@ class Checkpoint {
   // the run was resumed.
   void close();
 
-  bool due(int step, double time) const;  // by the steps or the time of the simulation
-  bool due_by_the_clock() const;          // on this rank
-  bool due_at_the_end() const { return settings_.enabled && settings_.kept_at_end; }
+  bool is_scheduled(int step, double time) const;  // by the steps or the time of the simulation
+  bool is_scheduled_by_clock() const;              // on this rank
+  bool is_scheduled_at_end() const { return settings_.enabled && settings_.kept_at_end; }
   void write(int step, double time);  // collective; throws Error if the disk is full
 
   // How to resume after an error, for the error message.

@@ -46,7 +46,7 @@ void move_group(const Snapshot::Group& from, const RanksOfPoints& ranks, Snapsho
 
 void move_snapshot(const Snapshot& from, const RanksOfPoints& ranks, Snapshot& to, const Communicator& communicator) {
   to.numbers = from.numbers;
-  to.shares = from.shares;
+  to.rank_sums = from.rank_sums;
   const auto same = [](const Snapshot::Column& one, const Snapshot::Column& other) {
     return one.name == other.name && one.width == other.width;
   };

@@ -15,7 +15,7 @@ class Communicator;
 using RanksOfPoints = std::vector<std::pair<std::int64_t, int>>;
 
 // Collective. Fills `to`, a snapshot of the same run on the new partition, with the values of `from`, on the old one.
-// Each rank keeps its own sums (Snapshot::shares).
+// Each rank keeps its own sums (Snapshot::rank_sums).
 void move_snapshot(const Snapshot& from, const RanksOfPoints& ranks, Snapshot& to, const Communicator& communicator);
 
 }  // namespace strut

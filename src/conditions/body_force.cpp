@@ -8,7 +8,7 @@ namespace {
 
 // Load at a point, N/m³, times the fraction of inertia of the point that belongs to its body (non-reflecting ends).
 double load_at(const Function& value, const Body& body, int i, double t) {
-  return body.inertia_share(i) * value(body.domain.reference(i), t);
+  return body.inertia_fraction(i) * value(body.domain.reference(i), t);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct BodyForce {
 
   static constexpr Stage stage = Stage::forces;
   static constexpr double Work::*ledger_entry = &Work::external;
-  static constexpr int reaction_place = no_reaction;
+  static constexpr int reaction_index = no_reaction;
   static constexpr InEquilibria in_equilibria = InEquilibria::load;
 
   std::vector<Function> values_at_points() const { return {value}; }

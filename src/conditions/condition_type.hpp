@@ -4,7 +4,7 @@
 // Every condition defines
 //   stage           when it acts in a step, relative to other conditions
 //   ledger_entry    the entry of the energy ledger that gets its work
-//   reaction_place  member: index of the condition in the deck, which identifies its reaction; without a reaction a
+//   reaction_index  member: index of the condition in the deck, which identifies its reaction; without a reaction a
 //                   static constant, no_reaction
 //   in_equilibria   how it acts in a load step without inertia
 // and, depending on these, the members in the concepts below. How to add one: CONTRIBUTING.md.
@@ -51,7 +51,7 @@ struct MovingPoints {
 
 // In a load step, the position y of the point must reach y · direction = target.
 struct HeldDirection {
-  int reaction_place, point;
+  int reaction_index, point;
   Vector direction;  // of unit length
   double target;     // m
 };
@@ -60,21 +60,21 @@ template <class T>
 concept HasRoles = requires(const T& condition) {
   requires std::same_as<decltype(T::stage), const Stage>;
   requires std::same_as<decltype(T::ledger_entry), double Work::*const>;
-  { condition.reaction_place } -> std::convertible_to<int>;
+  { condition.reaction_index } -> std::convertible_to<int>;
   requires std::same_as<decltype(T::in_equilibria), const InEquilibria>;
 };
 
 template <class T>
-concept Reacts = std::is_member_object_pointer_v<decltype(&T::reaction_place)>;
+concept Reacts = std::is_member_object_pointer_v<decltype(&T::reaction_index)>;
 
 // A deck makes a prototype: the condition without its points. Set-up completes it.
 //   values_at_points  the functions of the deck that it evaluates, at its points or of the time alone: set-up has
 //                     checked that they are finite at the initial time; solvers check later (first_not_finite)
 //   on                the condition on these points, with this index in the deck
 template <class T>
-concept IsPrototype = requires(const T& prototype, std::vector<int> points, int place, const Body& body) {
+concept IsPrototype = requires(const T& prototype, std::vector<int> points, int index, const Body& body) {
   { prototype.values_at_points() } -> std::same_as<std::vector<Function>>;
-  { prototype.on(points, place, body) } -> std::same_as<T>;
+  { prototype.on(points, index, body) } -> std::same_as<T>;
 };
 
 // Stage::forces. Acts once per whole step, not in substeps, which are for stiff points. With substeps, both functions

@@ -60,7 +60,7 @@ void change_velocities(Conditions& conditions, double t, const PointTimeSteps& s
   if (conditions.has_friction_beside_motions()) update.held.assign(body.owned(), 0);
   conditions.visit([&](ChangesVelocities auto& one) {
     update.ledger_entry = one.ledger_entry;
-    update.reaction_place = one.reaction_place;
+    update.reaction_index = one.reaction_index;
     one.change_velocities(update);
   });
   add_work(update, work);
@@ -103,7 +103,7 @@ namespace {
 
 template <class Work>
 void for_each_tool(Conditions& conditions, const Work& work) {  // work(tool, its name in checkpoints)
-  conditions.visit([&](RigidTool& tool) { work(tool, "tool_" + std::to_string(tool.reaction_place)); });
+  conditions.visit([&](RigidTool& tool) { work(tool, "tool_" + std::to_string(tool.reaction_index)); });
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ void serialize_reaches(Archive& archive, Conditions& conditions) {
 void keep_reaches(const Conditions& before, Conditions& now) {
   const std::vector<RigidTool> held = tools_of(before);
   for_each_tool(now, [&](RigidTool& tool, const std::string&) {
-    const auto is_same = [&](const RigidTool& one) { return one.reaction_place == tool.reaction_place; };
+    const auto is_same = [&](const RigidTool& one) { return one.reaction_index == tool.reaction_index; };
     const auto found = std::ranges::find_if(held, is_same);
     if (found != held.end()) tool.reaches = found->reaches;
   });

@@ -53,10 +53,10 @@ Crossing crossing_of(const S& shape, const RigidTool& tool, const Vector& offset
 
 }  // namespace
 
-std::vector<Vector> present_places(const Domain& domain) {
+std::vector<Vector> present_positions(const Domain& domain) {
   std::vector<Vector> places(domain.owned + domain.ghosts, Vector::Zero());
   for (int i = 0; i < domain.owned; ++i) places[i] = domain.current(i);
-  domain.halo.exchange<reflect_place>(places);
+  domain.halo.exchange<reflect_position>(places);
   return places;
 }
 

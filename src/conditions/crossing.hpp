@@ -22,7 +22,7 @@ std::optional<Crossing> find_crossing(const RigidTool& tool, double t, const Dom
                                       const std::vector<Vector>& places);
 
 // Collective. The present positions of owned points and ghosts.
-std::vector<Vector> present_places(const Domain& domain);
+std::vector<Vector> present_positions(const Domain& domain);
 
 // Gap between two tools at time t (s), m; not positive if they overlap; −∞ for infinite tools that are not parallel.
 double gap_between(const RigidTool& one, const RigidTool& other, double t);

@@ -28,7 +28,7 @@ double span(const std::vector<Vector>& normals) {
 }  // namespace
 
 NonReflectingEnd NonReflectingEnd::on(std::vector<int> points, int at, const Body& body) const {
-  NonReflectingEnd end{.normal = normal, .place = at};
+  NonReflectingEnd end{.normal = normal, .index = at};
   for (const int i : points) {
     const BlockMaterial& material = body.blocks[body.domain.cloud.blocks[i]].material;
     const auto moduli = materials::moduli_of(material.law);

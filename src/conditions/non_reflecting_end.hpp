@@ -18,11 +18,11 @@ struct NonReflectingEnd {
   };
   Vector normal = Vector::UnitX();  // of unit length
   std::vector<Drag> drags = {};
-  int place = 0;  // in the deck
+  int index = 0;  // in the deck
 
   static constexpr Stage stage = Stage::drags;
   static constexpr double Work::*ledger_entry = &Work::external;
-  static constexpr int reaction_place = no_reaction;
+  static constexpr int reaction_index = no_reaction;
   static constexpr InEquilibria in_equilibria = InEquilibria::impossible;
   static constexpr const char* why_not_in_equilibria =
       "'Non-Reflecting End' has no meaning with Solver > QuasiStatic, which knows no inertia; expected a prescribed "
@@ -31,7 +31,7 @@ struct NonReflectingEnd {
   std::vector<Function> values_at_points() const { return {}; }
   // The drags use the moduli of the undeformed blocks. The inertia of the points must still be reduced by the part
   // beyond the ends: part_within, for all ends of a point together.
-  NonReflectingEnd on(std::vector<int> points, int place, const Body&) const;
+  NonReflectingEnd on(std::vector<int> points, int index, const Body&) const;
 
   void change_velocities(VelocityUpdate& update) const;
   std::optional<NonReflectingEnd> in_substeps(const MovingPoints& moving) const;

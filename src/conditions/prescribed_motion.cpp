@@ -54,7 +54,7 @@ void PrescribedMotion::change_velocities(VelocityUpdate& update) const {
 }
 
 std::optional<PrescribedMotion> PrescribedMotion::in_substeps(const MovingPoints& moving) const {
-  return PrescribedMotion{moving.among(points), components, value, is_velocity, reaction_place};
+  return PrescribedMotion{moving.among(points), components, value, is_velocity, reaction_index};
 }
 
 void PrescribedMotion::predict_velocities(double t, double moment, const Body& body,
@@ -68,16 +68,16 @@ void PrescribedMotion::predict_velocities(double t, double moment, const Body& b
 std::vector<HeldDirection> PrescribedMotion::held_directions(const Body& body, double t, double dt) const {
   // A load step may be as long as the run: a velocity is integrated over it.
   const std::vector<double> turns = is_velocity ? numbers_in(value.text()) : std::vector<double>();
-  const auto way_at = [&](const Vector& X) {
+  const auto value_at = [&](const Vector& X) {
     return is_velocity ? time_integral(value, X, t, t + dt, turns) : value(X, t + dt);
   };
-  const bool is_common = !value.depends_on_place() && !points.empty();
-  const double common = is_common ? way_at(Vector::Zero()) : 0;
+  const bool is_common = !value.depends_on_position() && !points.empty();
+  const double common = is_common ? value_at(Vector::Zero()) : 0;
   std::vector<HeldDirection> all;
   for_each_component(*this, [&](int c, int i) {
     const Vector X = body.domain.reference(i);
     const double from = is_velocity ? body.current(i)[c] : X[c];
-    all.push_back({reaction_place, i, Vector::Unit(c), from + (is_common ? common : way_at(X))});
+    all.push_back({reaction_index, i, Vector::Unit(c), from + (is_common ? common : value_at(X))});
   });
   return all;
 }

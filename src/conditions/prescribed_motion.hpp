@@ -16,15 +16,15 @@ struct PrescribedMotion {
   std::vector<int> components = {0};
   Function value = Function();  // of the reference position and time: m, or m/s
   bool is_velocity = false;
-  int reaction_place = no_reaction;
+  int reaction_index = no_reaction;
 
   static constexpr Stage stage = Stage::motions;
   static constexpr double Work::*ledger_entry = &Work::external;
   static constexpr InEquilibria in_equilibria = InEquilibria::hold;
 
   std::vector<Function> values_at_points() const { return {value}; }
-  PrescribedMotion on(std::vector<int> all, int place, const Body&) const {
-    return {std::move(all), components, value, is_velocity, place};
+  PrescribedMotion on(std::vector<int> all, int index, const Body&) const {
+    return {std::move(all), components, value, is_velocity, index};
   }
 
   void change_velocities(VelocityUpdate& update) const;

@@ -55,7 +55,7 @@ struct PeriodicSides {
   int axis = 0;
   double lower = 0, upper = 0;     // places of the sides along the axis, m
   Function stretch = Function(1);  // of the time: their distance over that of the reference state
-  int reaction_place = no_reaction;
+  int reaction_index = no_reaction;
 
   static constexpr InEquilibria in_equilibria = InEquilibria::hold;
 

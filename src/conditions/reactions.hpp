@@ -34,15 +34,15 @@ class ReactionImpulses {
  public:
   explicit ReactionImpulses(int conditions = 0) : sums_(conditions, Vector::Zero()) {}
 
-  void add(int reaction_place, const Vector& impulse) {
-    if (static_cast<std::size_t>(reaction_place) < sums_.size()) sums_[reaction_place] += impulse;  // not no_reaction
+  void add(int reaction_index, const Vector& impulse) {
+    if (static_cast<std::size_t>(reaction_index) < sums_.size()) sums_[reaction_index] += impulse;  // not no_reaction
   }
   const std::vector<Vector>& sums() const { return sums_; }
 
   void serialize(Archive& archive) {
     for (std::size_t c = 0; c < sums_.size(); ++c) {
       for (int axis = 0; axis < 3; ++axis) {
-        archive.share("impulse_" + std::to_string(c) + "xyz"[axis], sums_[c][axis]);
+        archive.rank_sum("impulse_" + std::to_string(c) + "xyz"[axis], sums_[c][axis]);
       }
     }
   }

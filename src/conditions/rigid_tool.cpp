@@ -260,7 +260,7 @@ void RigidTool::change_velocities(VelocityUpdate& update) {
 }
 
 std::optional<RigidTool> RigidTool::in_substeps(const MovingPoints& moving) const {
-  return RigidTool{moving.among(points), shape, travel, friction, reaction_place, free, false, reaches, touched};
+  return RigidTool{moving.among(points), shape, travel, friction, reaction_index, free, false, reaches, touched};
 }
 
 }  // namespace strut

@@ -72,7 +72,7 @@ struct RigidTool {
   Shape shape;                                         // at zero travel
   std::array<std::optional<Function>, 3> travel = {};  // along x, y, z, functions of t only, m; nullopt: no travel
   double friction = 0;
-  int reaction_place = no_reaction;
+  int reaction_index = no_reaction;
   // For a tool with a mass, instead of `travel`; shared with its parts for substeps, which only record the impulses
   // that they give.
   std::shared_ptr<FreeMotion> free = {};
@@ -105,8 +105,8 @@ struct RigidTool {
   static constexpr InEquilibria in_equilibria = InEquilibria::tool;
 
   std::vector<Function> values_at_points() const;  // functions of the time alone
-  RigidTool on(std::vector<int> all, int place, const Body&) const {
-    return {std::move(all), shape, travel, friction, place, free ? std::make_shared<FreeMotion>(*free) : nullptr};
+  RigidTool on(std::vector<int> all, int index, const Body&) const {
+    return {std::move(all), shape, travel, friction, index, free ? std::make_shared<FreeMotion>(*free) : nullptr};
   }
 
   void change_velocities(VelocityUpdate& update);  // collective if it has a mass

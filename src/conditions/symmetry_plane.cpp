@@ -6,16 +6,16 @@
 
 namespace strut {
 
-SymmetryPlane SymmetryPlane::on(std::vector<int> all, int place, const Body& body) const {
+SymmetryPlane SymmetryPlane::on(std::vector<int> all, int index, const Body& body) const {
   const Domain& domain = body.domain;
   std::erase_if(all, [&](int i) {
     const int of_point = domain.body_of(i);
     return std::any_of(domain.mirrors.begin(), domain.mirrors.end(), [&](const Mirror& mirror) {
-      return mirror.number == place && mirror.body == of_point && !mirror.holds(domain.reference(i), domain.horizon(i));
+      return mirror.number == index && mirror.body == of_point && !mirror.holds(domain.reference(i), domain.horizon(i));
     });
   });
   SymmetryPlane plane = *this;
-  plane.points = std::move(all), plane.reaction_place = place;
+  plane.points = std::move(all), plane.reaction_index = index;
   return plane;
 }
 
@@ -39,7 +39,7 @@ void SymmetryPlane::predict_velocities(double, double, const Body&, std::vector<
 
 std::vector<HeldDirection> SymmetryPlane::held_directions(const Body& body, double, double) const {
   std::vector<HeldDirection> all;
-  for (const int i : points) all.push_back({reaction_place, i, normal, normal.dot(body.current(i))});
+  for (const int i : points) all.push_back({reaction_index, i, normal, normal.dot(body.current(i))});
   return all;
 }
 

@@ -14,7 +14,7 @@ namespace strut {
 struct SymmetryPlane {
   std::vector<int> points = {};
   Vector normal = Vector::UnitX();  // of unit length
-  int reaction_place = no_reaction;
+  int reaction_index = no_reaction;
   // Velocity change, in the directions that other conditions leave free, that takes 1 m/s along the normal from a
   // point. Without it: the normal.
   std::optional<Vector> push = {};
@@ -25,7 +25,7 @@ struct SymmetryPlane {
   static constexpr InEquilibria in_equilibria = InEquilibria::hold;
 
   std::vector<Function> values_at_points() const { return {}; }
-  SymmetryPlane on(std::vector<int> all, int place, const Body& body) const;
+  SymmetryPlane on(std::vector<int> all, int index, const Body& body) const;
 
   void change_velocities(VelocityUpdate& update) const;
   std::optional<SymmetryPlane> in_substeps(const MovingPoints& moving) const;

@@ -51,7 +51,7 @@ struct VelocityUpdate {
 
   // The condition that is acting now.
   double Work::*ledger_entry = nullptr;
-  int reaction_place = no_reaction;
+  int reaction_index = no_reaction;
 
   struct Impulse {
     int point;
@@ -67,7 +67,7 @@ struct VelocityUpdate {
   void record(int i, const Vector& change) {
     const Vector half_impulse = 0.5 * body.mass(i) * change;
     recorded.push_back({i, half_impulse, ledger_entry});
-    impulses.add(reaction_place, 2 * half_impulse);
+    impulses.add(reaction_index, 2 * half_impulse);
   }
 };
 

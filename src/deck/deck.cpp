@@ -125,7 +125,7 @@ void check_stiffness(const Deck& deck, Problems& problems) {
 }
 
 // Files are checked on one rank only: other ranks may not see them, and need not.
-void look_at_files(Deck& deck, const std::vector<fs::path>& tables, Problems& problems) {
+void check_read_files(Deck& deck, const std::vector<fs::path>& tables, Problems& problems) {
   check_mesh(deck.discretization.mesh, problems);
   for (const fs::path& shells : deck.discretization.shells) {
     if (fs::is_regular_file(shells)) continue;
@@ -184,7 +184,7 @@ Deck parse(std::string text, const fs::path& file, FileCheck file_check, Problem
   Deck deck = build(values, file, problems);
   deck.text = std::move(text);
   deck.from_peridigm = from_peridigm;
-  if (file_check == FileCheck::yes) look_at_files(deck, tables, problems);
+  if (file_check == FileCheck::yes) check_read_files(deck, tables, problems);
   deck.notes = problems.notes();
   return deck;
 }

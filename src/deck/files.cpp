@@ -49,12 +49,12 @@ std::vector<std::filesystem::path> fill_tables(std::string& text, const List& li
 }
 
 void check_files(const std::vector<WrittenFile>& written, const std::vector<ReadFile>& read, Problems& problems) {
-  std::string told;  // the path with the last reported problem: one for each is enough
+  std::string reported;  // the path with the last reported problem: one for each is enough
   for (const WrittenFile& one : written) {
-    const std::string problem = one.path == told ? "" : problem_of(one, read);
+    const std::string problem = one.path == reported ? "" : problem_of(one, read);
     if (problem.empty()) continue;
     problems.add(one.path, problem);
-    told = one.path;
+    reported = one.path;
   }
   for (auto one = written.begin(); one != written.end(); ++one) {
     for (auto other = written.begin(); other != one; ++other) {

@@ -15,7 +15,7 @@ namespace strut {
 namespace {
 
 // Indicators are averaged again once one has grown by this much since the last average; a point fails at 1.
-constexpr double due_growth = 0.01;
+constexpr double growth_between_averages = 0.01;
 
 constexpr double most_passes = 1000;  // a ball of some 50 spacings
 
@@ -100,7 +100,7 @@ std::vector<double> AveragedCriterion::growth_of(Body& body) const {
   std::vector<double> growth(body.domain.sites.size(), 0);
   over_points(body, [&](const OfBlock& one, const MaterialBlock& block, int k) {
     double sum = 0;
-    for (int q = 0; q < block.points_per_cell(); ++q) sum += block.state->at(block.place(k, q), one.number);
+    for (int q = 0; q < block.points_per_cell(); ++q) sum += block.state->at(block.index(k, q), one.number);
     const int i = block.points[k];
     growth[i] = sum / block.points_per_cell() - body.averaged_indicator[i];
   });
@@ -126,14 +126,14 @@ void AveragedCriterion::average(Body& body) {
   if (passes_ == 0) return;
   std::vector<double> growth = growth_of(body);
   const double most = growth.empty() ? 0 : *std::max_element(growth.begin(), growth.end());
-  if (body.domain.communicator.max(most) < due_growth) return;
+  if (body.domain.communicator.max(most) < growth_between_averages) return;
   for (int n = 0; n < passes_; ++n) pass(body, growth);
   over_points(body, [&](const OfBlock& one, MaterialBlock& block, int k) {
     const int i = block.points[k];
     const double averaged = body.averaged_indicator[i] + growth[i];
     double sum = 0;
     for (int q = 0; q < block.points_per_cell(); ++q) {
-      double& own = block.state->at(block.place(k, q), one.number);
+      double& own = block.state->at(block.index(k, q), one.number);
       if (own < 1) own = averaged;  // a point that softens already keeps its own indicator
       sum += own;
     }

@@ -118,7 +118,7 @@ void BondEnergies::over(const Body& body, const Cluster& cluster, const std::vec
       const Lanes omega = Lanes::Ones() * Weight::of(Lanes(2 * rest / (horizon + sites[j].horizon())));
       const Held of_bond = held(own, points_[j], omega, rest, extension);
       visit(n++, Lanes((present > 0).select(of_bond.load, Lanes::Zero())),
-            Lanes((present > 0).select(of_bond.room, Lanes::Constant(never))));
+            Lanes((present > 0).select(of_bond.slack, Lanes::Constant(never))));
     });
   });
 }

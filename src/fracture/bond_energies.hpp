@@ -56,7 +56,7 @@ class BondEnergies {
     double limit = never, a = 0, b = 0, growth = 0, expansion = 0;
   };
   struct Held {
-    Lanes load, room;
+    Lanes load, slack;
   };
   static Held held(const std::array<Lanes, 5>& own, const Point& there, const Lanes& omega, const Lanes& rest,
                    const Lanes& extension);

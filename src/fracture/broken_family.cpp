@@ -39,7 +39,7 @@ Tensor gradient_at_start(const Body& body, int i, const StepEnd& start) {
   bonds::with_influence(body.influence, [&](auto weight) {
     bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight,
                 [&](int j, double w, const auto& xi, double) {
-                  N += w * (start.place(j) - start.place(i)) * Vector(xi.c[0], xi.c[1], xi.c[2]).transpose();
+                  N += w * (start.position(j) - start.position(i)) * Vector(xi.c[0], xi.c[1], xi.c[2]).transpose();
                 });
   });
   return N * to_tensor(body.shape_inverse[i]);
@@ -56,19 +56,19 @@ Tensor symmetric(const Tensor& t) { return 0.5 * (t + t.transpose()); }
 
 // Advances the stress of an integration point from one stretch to another, and keeps it while the stretch jumps to a
 // third. No viscosity acts, because no point moves.
-void follow(MaterialBlock& block, std::size_t place, MaterialPoint& point, const Tensor& from, const Tensor& to,
+void follow(MaterialBlock& block, std::size_t index, MaterialPoint& point, const Tensor& from, const Tensor& to,
             const Tensor& jumped, double dt) {
   const auto step = [&]<class L>(const L& law) {
-    typename L::State state = block.state_of<L>(place);
+    typename L::State state = block.state_of<L>(index);
     if (from != to) {
       const auto along = materials::step_between(symmetric_part(from), symmetric_part(to), dt);
       const auto [stress, converged] = law.step(along, point.stress, state);
-      if constexpr (requires { state.time; }) state.time = block.state_of<L>(place).time;  // that step follows
+      if constexpr (requires { state.time; }) state.time = block.state_of<L>(index).time;  // that step follows
       if (converged) point.stress = stress;
     }
     if constexpr (requires { law.move_stress(to, jumped, state); }) law.move_stress(to, jumped, state);
     const auto columns = materials::to_columns<L>(state);
-    for (std::size_t c = 0; c < columns.size(); ++c) block.state->at(place, c) = columns[c];
+    for (std::size_t c = 0; c < columns.size(); ++c) block.state->at(index, c) = columns[c];
   };
   std::visit(step, block.material.law);
 }
@@ -76,7 +76,7 @@ void follow(MaterialBlock& block, std::size_t place, MaterialPoint& point, const
 // Makes the step start from the stretch and rotation that the intact bonds have at its start; the stress follows
 // its part of the jump. Returns false if the volume changes too much: then the intact bonds do not determine a
 // gradient.
-bool set_start(MaterialBlock& block, std::size_t place, MaterialPoint& point, const Tensor& refitted, double dt) {
+bool set_start(MaterialBlock& block, std::size_t index, MaterialPoint& point, const Tensor& refitted, double dt) {
   constexpr double most = 2;  // factor by which the volume may grow or shrink
   const double before = point.deformation_gradient.determinant(), after = refitted.determinant();
   if (!(after > before / most && after < before * most)) return false;
@@ -84,7 +84,7 @@ bool set_start(MaterialBlock& block, std::size_t place, MaterialPoint& point, co
                old = symmetric(point.rotation.tensor().transpose() * point.deformation_gradient), jump = stretch - old;
   const Tensor strain = symmetric(2 * jump * (old + stretch).inverse());  // as in stress_update.hpp
   const double falls = -before * to_tensor(point.stress).cwiseProduct(strain).sum();
-  follow(block, place, point, old, old + part_to_least(block.moduli(place), falls, strain) * jump, stretch, dt);
+  follow(block, index, point, old, old + part_to_least(block.moduli(index), falls, strain) * jump, stretch, dt);
   point.deformation_gradient = refitted;
   point.rotation = Rotation(R);
   return true;
@@ -93,12 +93,12 @@ bool set_start(MaterialBlock& block, std::size_t place, MaterialPoint& point, co
 bool set_start_of_cell(Body& body, MaterialBlock& block, int k, const StepEnd& start) {
   bool holds = true;
   for (int q = 0; q < block.points_per_cell(); ++q) {
-    const std::size_t place = block.place(k, q);
-    const auto place_of = [&start](int j) { return start.place(j); };
-    const Tensor F = body.fits->gradient_at(body, block.points[k], q, place_of);
-    MaterialPoint point = block.cells[place];
-    holds = holds && set_start(block, place, point, F, start.dt);
-    block.cells->set(place, point);
+    const std::size_t index = block.index(k, q);
+    const auto position_of = [&start](int j) { return start.position(j); };
+    const Tensor F = body.fits->gradient_at(body, block.points[k], q, position_of);
+    MaterialPoint point = block.cells[index];
+    holds = holds && set_start(block, index, point, F, start.dt);
+    block.cells->set(index, point);
   }
   return holds;
 }
@@ -129,7 +129,7 @@ void release(Body& body, MaterialBlock& block, int k) {
   const int i = block.points[k];
   if (block.is_quadratic()) {
     body.fits->drop(i);
-    for (int q = 0; q < block.points_per_cell(); ++q) block.cells->set(block.place(k, q), MaterialPoint());
+    for (int q = 0; q < block.points_per_cell(); ++q) block.cells->set(block.index(k, q), MaterialPoint());
   } else {
     body.shape_inverse->set(i, Symmetric::Zero());
     release(body.points[i]);

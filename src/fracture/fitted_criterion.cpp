@@ -19,9 +19,9 @@ bool is_read(const MaterialBlock& block) {
          !std::holds_alternative<materials::FailureStrain>(damage->ductility->criterion);
 }
 
-Symmetric stress_at(const MaterialBlock& block, std::size_t place) {
+Symmetric stress_at(const MaterialBlock& block, std::size_t index) {
   Symmetric stress;
-  for (int c = 0; c < 6; ++c) stress[c] = block.cells->at(place, CellPoints::stress + c);
+  for (int c = 0; c < 6; ++c) stress[c] = block.cells->at(index, CellPoints::stress + c);
   return stress;
 }
 
@@ -52,9 +52,9 @@ void FittedCriterion::start(const Body& body) {
     const MaterialBlock& block = body.blocks[one.block];
     one.indicators.resize(block.integration_points());
     one.strains.resize(block.integration_points());
-    for_each_point(0, static_cast<int>(one.strains.size()), [&](int place) {
-      one.indicators[place] = block.state->at(place, one.indicator);
-      one.strains[place] = block.state->at(place, one.strain);
+    for_each_point(0, static_cast<int>(one.strains.size()), [&](int index) {
+      one.indicators[index] = block.state->at(index, one.indicator);
+      one.strains[index] = block.state->at(index, one.strain);
     });
   }
 }
@@ -64,7 +64,7 @@ std::vector<double> FittedCriterion::mean_stresses(const Body& body) const {
   for (const OfBlock& one : blocks_) {
     const MaterialBlock& block = body.blocks[one.block];
     for_each_point(0, static_cast<int>(block.points.size()), [&](int k) {
-      for (int q = 0; q < 4; ++q) means[block.points[k]] += trace(stress_at(block, block.place(k, q))) / 12;
+      for (int q = 0; q < 4; ++q) means[block.points[k]] += trace(stress_at(block, block.index(k, q))) / 12;
     });
   }
   body.domain.halo.exchange(means);
@@ -100,20 +100,20 @@ void FittedCriterion::finish(Body& body) const {
     MaterialBlock& block = body.blocks[one.block];
     for_each_point(0, static_cast<int>(block.points.size()), [&](int k) {
       const auto grows = [&](int q) {
-        const std::size_t place = block.place(k, q);
-        return one.indicators[place] < 1 && block.state->at(place, one.strain) > one.strains[place];
+        const std::size_t index = block.index(k, q);
+        return one.indicators[index] < 1 && block.state->at(index, one.strain) > one.strains[index];
       };
       if (!grows(0) && !grows(1) && !grows(2) && !grows(3)) return;
       const double change = fitted(body, means, block.points[k]) - means[block.points[k]];
       for (int q = 0; q < 4; ++q) {
         if (!grows(q)) continue;
-        const std::size_t place = block.place(k, q);
-        Symmetric stress = stress_at(block, place);
+        const std::size_t index = block.index(k, q);
+        Symmetric stress = stress_at(block, index);
         for (int c = 0; c < 3; ++c) stress[c] += change;
-        const double temperature = one.temperature < 0 ? 0 : block.state->at(place, one.temperature);
-        block.state->at(place, one.indicator) =
-            one.indicators[place] + (block.state->at(place, one.strain) - one.strains[place]) *
-                                        growth(block, stress, block.state->at(place, one.rate), temperature);
+        const double temperature = one.temperature < 0 ? 0 : block.state->at(index, one.temperature);
+        block.state->at(index, one.indicator) =
+            one.indicators[index] + (block.state->at(index, one.strain) - one.strains[index]) *
+                                        growth(block, stress, block.state->at(index, one.rate), temperature);
       }
     });
   }

@@ -76,7 +76,7 @@ struct Fracture::Stretches {
   template <class Visit>
   void over(const Cluster& cluster, const Visit& visit) const {
     const bonds::OfCluster family{cluster};
-    const auto y = bonds::own_place(family, sites, &Site::current);
+    const auto y = bonds::own_position(family, sites, &Site::current);
     const Lanes own = family.own<1>([this](int i) { return &limits[i]; })[0];
     std::size_t n = 0;
     bonds::over(family, sites, bonds::One(), [&](int j, const Lanes&, const auto& xi, const auto& present) {
@@ -112,47 +112,47 @@ Fracture::Fracture(Body& body, double time) : travel_(body.domain) {
   body.fracture_energy.use(domain.owned);
   body.released.use(domain.owned);
   for (int i = 0; i < domain.owned; ++i) whole_volume_.push_back(family_volume(domain, i));
-  look_at_all(body);
+  mark_all_for_check(body);
   set_shortest(body);
   set_most_steepness(body);
   set_limits(body, time);
 }
 
 // Marks the clusters of these points, and those that have them in their families, for the next check.
-void Fracture::look_around(const Body& body, const std::vector<char>& points) {
+void Fracture::mark_for_check(const Body& body, const std::vector<char>& points) {
   if (points.empty()) return;
   const auto is = [&points](int i) { return points[i] != 0; };
-  for (std::size_t c = 0; c < due_.size(); ++c) {
+  for (std::size_t c = 0; c < next_checks_.size(); ++c) {
     const Cluster cluster = body.domain.families.lists[static_cast<int>(c)];
     const bool meets = std::any_of(cluster.near.begin(), cluster.near.end(), is) ||
                        std::any_of(cluster.points.begin(), cluster.points.end(), is);
-    if (meets) due_[c] = 0;
+    if (meets) next_checks_[c] = 0;
   }
 }
 
 void Fracture::start_step(const Body& body, std::span<const Vector> velocities, double dt, const Vector& stretch) {
-  std::vector<double> due = due_;
+  std::vector<double> next_checks = next_checks_;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
     if (!body.may_break(b) || !block.in_rigid_motion)
       continue;  // points on the lattice of another body have no cluster
     for (const Part part : {Part::interior, Part::boundary}) {
       const auto [first, last] = clusters_of(body, block, part);
-      for (int c = first; c < last; ++c) due[c] = is_of(body, block, c) ? never : due[c];
+      for (int c = first; c < last; ++c) next_checks[c] = is_of(body, block, c) ? never : next_checks[c];
     }
   }
-  const bool is_due = travel_.advance(body, velocities, dt, due, stretch);
+  const bool is_reached = travel_.advance(body, velocities, dt, next_checks, stretch);
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
-  is_looked_at_ =
-      is_due || limits_change(body) || any_fails || energies_.any() || std::ranges::any_of(body.blocks, springs_fade);
-  if (is_looked_at_) keep_start(body);
+  is_checked_ = is_reached || limits_change(body) || any_fails || energies_.any() ||
+                std::ranges::any_of(body.blocks, springs_fade);
+  if (is_checked_) keep_start(body);
   if (energies_.any()) energies_.take_expansions(body);
 }
 
 void Fracture::start_rest(const Body& body) {
-  look_at_all(body);
+  mark_all_for_check(body);
   keep_start(body);
-  is_looked_at_ = true;
+  is_checked_ = true;
 }
 
 double Fracture::largest_stretch(const Body& body) const {
@@ -174,11 +174,11 @@ double Fracture::largest_stretch(const Body& body) const {
   return domain.communicator.max(largest);
 }
 
-void Fracture::look_at_all(const Body& body) {
-  due_.assign(body.domain.families.lists.count(), never);
-  for (std::size_t c = 0; c < due_.size(); ++c) {
+void Fracture::mark_all_for_check(const Body& body) {
+  next_checks_.assign(body.domain.families.lists.count(), never);
+  for (std::size_t c = 0; c < next_checks_.size(); ++c) {
     const int i = body.domain.families.lists[static_cast<int>(c)].points[0];
-    if (body.may_break(body.domain.cloud.blocks[i])) due_[c] = 0;
+    if (body.may_break(body.domain.cloud.blocks[i])) next_checks_[c] = 0;
   }
 }
 
@@ -195,34 +195,34 @@ bool Fracture::holds_energy(const Body& body, const MaterialBlock& block) const 
 // True if a bond of a cluster is at its limit, to round-off; else sets the travel at which the cluster is checked next.
 bool Fracture::is_at_limit(const Body& body, const MaterialBlock& block, int cluster) {
   const Cluster points = body.domain.families.lists[cluster];
-  Lanes worst = Lanes::Zero(), load = Lanes::Zero(), room = Lanes::Constant(never);
+  Lanes worst = Lanes::Zero(), load = Lanes::Zero(), slack = Lanes::Constant(never);
   Stretches{body.domain.sites.data(), limits_.data()}.over(
       points, [&worst](std::size_t, const Lanes& square) { worst = worst.max(square); });
   if (holds_energy(body, block)) {
     energies_.over(body, points, start_, [&](std::size_t, const Lanes& of_bond, const Lanes& to_go) {
-      load = load.max(of_bond), room = room.min(to_go);
+      load = load.max(of_bond), slack = slack.min(to_go);
     });
   }
   const double most = worst.maxCoeff();
   const double by_stretch = shortest_[cluster] * std::max(0.0, 1 - std::sqrt(most));
-  const double by_energy = room.minCoeff() - travel_.last();  // measured from the start of the step
-  due_[cluster] = travel_.of(cluster) + std::max(0.0, std::min(by_stretch, by_energy));
+  const double by_energy = slack.minCoeff() - travel_.last();  // measured from the start of the step
+  next_checks_[cluster] = travel_.of(cluster) + std::max(0.0, std::min(by_stretch, by_energy));
   return std::max(most, load.maxCoeff()) > 1 - round_off;
 }
 
 void Fracture::break_bonds(Body& body, Part part, double time, double dt) {
   static Teuchos::Time& timer = phase("Fracture");
   const Timed timed(timer);
-  if (!is_looked_at_) return;
+  if (!is_checked_) return;
   if (limits_change(body) && part == Part::interior) set_limits(body, time);
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
   if (any_fails && part == Part::interior) take_failed(body);
-  if (energies_.any() && part == Part::interior) look_around(body, energies_.take_states(body, travel_.last()));
-  std::vector<char> at_limit(due_.size(), 0);
+  if (energies_.any() && part == Part::interior) mark_for_check(body, energies_.take_states(body, travel_.last()));
+  std::vector<char> at_limit(next_checks_.size(), 0);
   over_breakable(body, part, [&](const MaterialBlock& block, int first, int last) {
     for_each_point(first, last, [&](int c) {
       if (!is_of(body, block, c)) return;
-      if (!limits_change(body) && travel_.of(c) < due_[c]) return;
+      if (!limits_change(body) && travel_.of(c) < next_checks_[c]) return;
       at_limit[c] = is_at_limit(body, block, c);
     });
   });
@@ -320,7 +320,7 @@ double Fracture::part_of_springs(const Body& body, const MaterialBlock& block, i
 void Fracture::soften_springs(Body& body, Part part) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
-    const bool fade = springs_fade(block) && is_looked_at_;
+    const bool fade = springs_fade(block) && is_checked_;
     const bool soften = may_fail_[b] && block.has_springs(ResidualKind::own_gradient);
     if (block.in_rigid_motion || !(fade || soften)) continue;
     const auto [begin, end] = updated_with(block, part);
@@ -391,7 +391,8 @@ void Fracture::count_springs(Body& body) {
 }
 
 double Fracture::bytes(const Body& body) const {
-  return static_cast<double>(limits_.size() * (sizeof(Vector) + 2 * sizeof(double)) + 2 * due_.size() * sizeof(double) +
+  return static_cast<double>(limits_.size() * (sizeof(Vector) + 2 * sizeof(double)) +
+                             2 * next_checks_.size() * sizeof(double) +
                              whole_volume_.size() * (3 * sizeof(double) + sizeof(std::vector<int>)) +
                              body.force_states.gradients.size() * sizeof(GradientState)) +
          energies_.bytes() + fitted_.bytes() + averaged_.bytes() + travel_.bytes();

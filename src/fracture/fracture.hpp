@@ -52,7 +52,7 @@ class Fracture : public BondBreaking {
   void count_dissipation(Body& body, Part part) override;
   // Called when the sum of forces has exchanged its states: counts the dissipation of springs on both ends' gradients.
   void count_springs(Body& body) override;
-  void finish_step() override { is_looked_at_ = false; }
+  void finish_step() override { is_checked_ = false; }
 
   // For equilibria. Call it instead of start_step before a stress update at the same positions: in this update the
   // bonds beyond their limit break, and D is the decrease of the body's stored energy.
@@ -80,12 +80,12 @@ class Fracture : public BondBreaking {
   bool limits_change(const Body& body) const;
   void set_which(const Body& body);
   void take_failed(const Body& body);
-  void look_around(const Body& body, const std::vector<char>& points);
+  void mark_for_check(const Body& body, const std::vector<char>& points);
   void soften_springs(Body& body, Part part);
   void set_shortest(const Body& body);
   void set_most_steepness(const Body& body);
   void keep_start(const Body& body);
-  void look_at_all(const Body& body);
+  void mark_all_for_check(const Body& body);
   bool is_at_limit(const Body& body, const MaterialBlock& block, int cluster);
   bool holds_energy(const Body& body, const MaterialBlock& block) const;
   unsigned bonds_to_cut(const Body& body, const MaterialBlock& block, const Cluster& cluster,
@@ -101,11 +101,11 @@ class Fracture : public BondBreaking {
   BondEnergies energies_;       // of bonds in blocks with a critical bond energy
   FittedCriterion fitted_;
   AveragedCriterion averaged_;
-  bool is_looked_at_ = false;                   // a bond may break in this step
+  bool is_checked_ = false;                     // a bond may break in this step
   std::vector<Vector> start_;                   // positions of owned points and ghosts at the start of such a step, m
   std::vector<GradientState> start_gradients_;  // gradient states at the start of such a step
   std::vector<double> shortest_;                // shortest |ξ| of each cluster, m
-  std::vector<double> due_;                     // travel at which a cluster must be checked next, m
+  std::vector<double> next_checks_;             // travel at which a cluster must be checked next, m
   Travel travel_;
   std::vector<double> whole_volume_;    // Σ V_j over the complete family of owned points, m³
   std::vector<double> whole_springs_;   // C of owned points with complete families, Pa/m⁵

@@ -153,7 +153,7 @@ void Fracture::restore(Body& body) {
     }
     set_off_stencil(body.domain, block);
   }
-  look_at_all(body);
+  mark_all_for_check(body);
   exchange_states(body);
 }
 

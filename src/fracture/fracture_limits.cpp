@@ -53,7 +53,7 @@ void Fracture::take_failed(const Body& body) {
     is_new.resize(limits_.size());
     is_new[i] = true;
   }
-  look_around(body, is_new);
+  mark_for_check(body, is_new);
 }
 
 // The limit of a point's steepness is `steepness_of_corners` times the least in its block, which is that of an interior
@@ -79,7 +79,7 @@ void Fracture::set_most_steepness(const Body& body) {
 }
 
 void Fracture::set_shortest(const Body& body) {
-  for (std::size_t b = 0; b < due_.size(); ++b) {
+  for (std::size_t b = 0; b < next_checks_.size(); ++b) {
     const Cluster cluster = body.domain.families.lists[static_cast<int>(b)];
     double shortest = never;
     for (std::size_t n = 0; n < cluster.near.size(); ++n) {

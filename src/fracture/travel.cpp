@@ -38,25 +38,26 @@ Travel::Travel(const Domain& domain) {
 }
 
 // The relative displacement that is left before the next check of a region, m.
-double Travel::until_due(std::size_t region, std::span<const double> due) const {
-  const auto begin = due.begin() + static_cast<std::ptrdiff_t>(region) * clusters_a_region;
-  const auto left = std::min<std::ptrdiff_t>(clusters_a_region, due.end() - begin);
+double Travel::until_check(std::size_t region, std::span<const double> next_checks) const {
+  const auto begin = next_checks.begin() + static_cast<std::ptrdiff_t>(region) * clusters_a_region;
+  const auto left = std::min<std::ptrdiff_t>(clusters_a_region, next_checks.end() - begin);
   return *std::min_element(begin, begin + left) - regions_[region].travel;
 }
 
-void Travel::set_boxes(const ClusterLists& lists, std::span<const Vector> velocities, std::span<const double> due) {
+void Travel::set_boxes(const ClusterLists& lists, std::span<const Vector> velocities,
+                       std::span<const double> next_checks) {
   for (Region& region : regions_) region.box.setEmpty();
   for (int c = 0; c < lists.count(); ++c) {
-    if (due[c] == never) continue;
+    if (next_checks[c] == never) continue;
     Eigen::AlignedBox3d& box = regions_[c / clusters_a_region].box;
     for (const int i : lists[c].points) box.extend(velocities[i]);
   }
 }
 
-bool Travel::advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> due,
-                     const Vector& stretch) {
+bool Travel::advance(const Body& body, std::span<const Vector> velocities, double dt,
+                     std::span<const double> next_checks, const Vector& stretch) {
   constexpr double margin = 1 + 1e-6;  // for the round-off of positions
-  set_boxes(body.domain.families.lists, velocities, due);
+  set_boxes(body.domain.families.lists, velocities, next_checks);
   Eigen::AlignedBox3d all;
   for (const Region& region : regions_) all.extend(region.box);
   if (!body.domain.mirrors.empty() && !all.isEmpty()) {  // images move in other directions at the same speed
@@ -70,13 +71,13 @@ bool Travel::advance(const Body& body, std::span<const Vector> velocities, doubl
     Region& region = regions_[r];
     if (region.box.isEmpty()) continue;
     if (region.meets_ghosts) {
-      at_ghosts = std::max(at_ghosts, -until_due(r, due));
+      at_ghosts = std::max(at_ghosts, -until_check(r, next_checks));
       continue;
     }
     Eigen::AlignedBox3d box;
     for (const int near : region.near) box.extend(regions_[near].box);
     region.travel += margin * dt * box.diagonal().norm();
-    passed = std::max(passed, -until_due(r, due));
+    passed = std::max(passed, -until_check(r, next_checks));
   }
   std::array<double, 9> most{
       passed, at_ghosts, -never, -never, -never, -never, -never, -never, farthest_.cwiseProduct(stretch).norm()};

@@ -16,10 +16,10 @@ class Travel {
  public:
   explicit Travel(const Domain& domain);
 
-  // Collective. Adds a step of dt (s) with these velocities of owned points (m/s). `due`: travel at which each cluster
-  // must be checked, m; infinite if it need not be. `stretch`: increment of the stretch of periodic sides in the step,
-  // along x, y, z. Returns true if a cluster of any rank must be checked.
-  bool advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> due,
+  // Collective. Adds a step of dt (s) with these velocities of owned points (m/s). `next_checks`: travel at which each
+  // cluster must be checked, m; infinite if it need not be. `stretch`: increment of the stretch of periodic sides in
+  // the step, along x, y, z. Returns true if a cluster of any rank must be checked.
+  bool advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> next_checks,
                const Vector& stretch);
 
   double of(int cluster) const { return regions_[cluster / clusters_a_region].travel; }  // since the start, m
@@ -35,8 +35,8 @@ class Travel {
     double travel = 0;        // m
     Eigen::AlignedBox3d box;  // of velocities, m/s
   };
-  void set_boxes(const ClusterLists& lists, std::span<const Vector> velocities, std::span<const double> due);
-  double until_due(std::size_t region, std::span<const double> due) const;
+  void set_boxes(const ClusterLists& lists, std::span<const Vector> velocities, std::span<const double> next_checks);
+  double until_check(std::size_t region, std::span<const double> next_checks) const;
 
   std::vector<Region> regions_;
   Vector farthest_ = Vector::Zero();  // largest shift of an image behind periodic sides, along x, y, z, m

@@ -29,7 +29,7 @@ template <class Visit>
 void over_bonds(const Cluster& cluster, const StepEnd& end, const Visit& visit) {
   const Site* sites = end.body.domain.sites.data();
   const bonds::OfCluster family{cluster};
-  const auto now = bonds::own_place(family, sites, &Site::current);
+  const auto now = bonds::own_position(family, sites, &Site::current);
   const auto numbers = family.own<3>([&end](int i) { return end.start[i].data(); });
   const Vector3<Lanes> start{{numbers[0], numbers[1], numbers[2]}};
   bonds::with_influence(end.body.influence, [&](auto weight) {
@@ -153,7 +153,7 @@ BondWorkBalance SpringWorkBalance::of(int i, std::span<const int> family) const 
     const double C = 2 * std::min(bonds::stiffness_of(kind, now[i].stiffness(), now[i].kind()),
                                   bonds::stiffness_of(kind, now[j].stiffness(), now[j].kind()));
     const Tensor F = 0.5 * (bonds::tensor_of(now[i]) + bonds::tensor_of(now[j]));
-    const Vector z = end.place(j) - end.place(i) - F * xi;
+    const Vector z = end.position(j) - end.position(i) - F * xi;
     const Numbers force = S::bond_force(weight * C, numbers_of(z), numbers_of(xi));
     const Vector t(force.c[0], force.c[1], force.c[2]);
     const Vector moved = body.domain.current(j) - body.domain.current(i) - end.start[j] + end.start[i];

@@ -16,7 +16,7 @@ struct StepEnd {
   bool at_start;
   double dt = 0;  // length of the step, s
 
-  Vector place(int j) const { return at_start ? start[j] : body.domain.current(j); }
+  Vector position(int j) const { return at_start ? start[j] : body.domain.current(j); }
 };
 
 struct BondWorkBalance {

@@ -5,7 +5,7 @@ namespace strut {
 namespace {
 
 // The displacement of the upper side of a period relative to the lower one, from t over dt (s), m.
-Vector way_of(const Domain& domain, const Period& period, double t, double dt) {
+Vector relative_displacement(const Domain& domain, const Period& period, double t, double dt) {
   const Vector more = stretch_at(domain.periods, t + dt) - stretch_at(domain.periods, t);
   return period.length * more[period.axis] * Vector::Unit(period.axis);
 }
@@ -18,9 +18,10 @@ void add_period_work(const Domain& domain, const std::vector<Vector>& forces, co
     const Period& period = domain.periods[p];
     if (period.stretch.is_constant()) continue;
     const Vector half = 0.5 * at.impulse * forces[p];
-    const double after = half.dot(way_of(domain, period, at.t, at.after)) / at.after;
-    const double before =
-        at.before > 0 ? half.dot(way_of(domain, period, at.t - at.before, at.before)) / at.before : after;
+    const double after = half.dot(relative_displacement(domain, period, at.t, at.after)) / at.after;
+    const double before = at.before > 0
+                              ? half.dot(relative_displacement(domain, period, at.t - at.before, at.before)) / at.before
+                              : after;
     work.before.external += before, work.after.external += after;
   }
 }
@@ -29,8 +30,8 @@ double period_work(const Domain& domain, const std::vector<Vector>& before, cons
                    double dt) {
   double work = 0;
   for (std::size_t p = 0; p < domain.periods.size(); ++p) {
-    const Vector way = way_of(domain, domain.periods[p], t, dt);
-    work += 0.5 * (before[p] + after[p]).dot(way);
+    const Vector displacement = relative_displacement(domain, domain.periods[p], t, dt);
+    work += 0.5 * (before[p] + after[p]).dot(displacement);
   }
   return work;
 }

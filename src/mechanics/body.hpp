@@ -39,20 +39,23 @@ struct PointFields {
                                 .variable = "Mass_Scale"},
                                When::if_used);
   PointField<Vector> velocity = fields.of_points<Vector>(
-      {.name = "velocity", .unit = "m/s", .meaning = "at the mid-step after the time", .kept = true});
+      {.name = "velocity", .unit = "m/s", .meaning = "at the mid-step after the time", .persistent = true});
   PointField<Vector> previous_velocity = fields.of_points<Vector>(
-      {.name = "previous_velocity", .unit = "m/s", .meaning = "at the mid-step before the time", .kept = true});
+      {.name = "previous_velocity", .unit = "m/s", .meaning = "at the mid-step before the time", .persistent = true});
   // Sum over the phases of a step: each point's own state sets it, then bonds, contact and loads add to it.
   PointField<Vector> force_density = fields.of_points<Vector>({.name = "force_density",
                                                                .unit = "N/m³",
                                                                .meaning = "Force per reference volume",
-                                                               .kept = true,
+                                                               .persistent = true,
                                                                .variable = "Force_Density",
                                                                .nodal = true});
   PointField<double> residual = fields.of_points<double>(  // current after a step with diagnostics
-      {.name = "residual", .unit = "m⁵", .meaning = "Σ ω V |η − F ξ|²", .kept = true});
+      {.name = "residual", .unit = "m⁵", .meaning = "Σ ω V |η − F ξ|²", .persistent = true});
   PointField<double> bond_work = fields.of_points<double>(  // current after a step with diagnostics
-      {.name = "bond_work", .unit = "J/m³", .meaning = "energy of the springs on both ends' gradients", .kept = true},
+      {.name = "bond_work",
+       .unit = "J/m³",
+       .meaning = "energy of the springs on both ends' gradients",
+       .persistent = true},
       When::if_used);
   FieldRef<Deduplicated<Symmetric>> shape_inverse = fields.add<Deduplicated<Symmetric>>(
       At::point, {{.name = "shape_inverse", .unit = "1/m⁵", .meaning = "K⁻¹", .width = 6}});
@@ -63,38 +66,48 @@ struct PointFields {
       fields.of_points<double>({.name = "damage",
                                 .unit = "1",
                                 .meaning = "1 − volume of the points still bonded to this one / of all at first",
-                                .kept = true,
+                                .persistent = true,
                                 .variable = "Damage"},
                                When::if_used);
   PointField<double> fracture_energy = fields.of_points<double>(
-      {.name = "fracture_energy", .unit = "J", .meaning = "dissipated by its bonds that broke", .kept = true},
+      {.name = "fracture_energy", .unit = "J", .meaning = "dissipated by its bonds that broke", .persistent = true},
       When::if_used);
-  PointField<double> averaged_indicator = fields.of_points<double>(
-      {.name = "averaged_indicator", .unit = "1", .meaning = "criterion of ductile failure, averaged", .kept = true},
-      When::if_used);
+  PointField<double> averaged_indicator = fields.of_points<double>({.name = "averaged_indicator",
+                                                                    .unit = "1",
+                                                                    .meaning = "criterion of ductile failure, averaged",
+                                                                    .persistent = true},
+                                                                   When::if_used);
   PointField<std::uint8_t> released =
       fields.of_points<std::uint8_t>({.name = "released",
                                       .unit = "1",
                                       .meaning = "1: the bonds left to it hold no deformation gradient",
-                                      .kept = true},
+                                      .persistent = true},
                                      When::if_used);
-  PointField<PointExpansion> expansion = fields.add<std::vector<PointExpansion>>(
-      At::point,
-      {{.name = "thermal_strain",
-        .unit = "1",
-        .meaning = "α (T − T₀) by a prescribed temperature",
-        .kept = true,
-        .variable = "Thermal_Strain",
-        .width = 1},
-       {.name = "expansion_pull",
-        .unit = "J/m³",
-        .meaning = "work of expansion, by its strain",
-        .kept = true,
-        .width = 1},
-       {.name = "expansion_work", .unit = "J/m³", .meaning = "work of expansion so far", .kept = true, .width = 1},
-       {.name = "reference_temperature", .unit = "K", .meaning = "T₀ of the expansion", .kept = true, .width = 1}},
-      When::if_used);
-  // Levels of owned points and ghosts, empty without subcycling. Multi-time-stepping chooses and saves them.
+  PointField<PointExpansion> expansion =
+      fields.add<std::vector<PointExpansion>>(At::point,
+                                              {{.name = "thermal_strain",
+                                                .unit = "1",
+                                                .meaning = "α (T − T₀) by a prescribed temperature",
+                                                .persistent = true,
+                                                .variable = "Thermal_Strain",
+                                                .width = 1},
+                                               {.name = "expansion_pull",
+                                                .unit = "J/m³",
+                                                .meaning = "work of expansion, by its strain",
+                                                .persistent = true,
+                                                .width = 1},
+                                               {.name = "expansion_work",
+                                                .unit = "J/m³",
+                                                .meaning = "work of expansion so far",
+                                                .persistent = true,
+                                                .width = 1},
+                                               {.name = "reference_temperature",
+                                                .unit = "K",
+                                                .meaning = "T₀ of the expansion",
+                                                .persistent = true,
+                                                .width = 1}},
+                                              When::if_used);
+  // Time-step levels of owned points and ghosts; empty without substeps. MultiTimeStepping chooses and saves them.
   PointField<std::uint8_t> time_levels =
       fields.of_points<std::uint8_t>({.name = "time_levels",
                                       .unit = "1",
@@ -108,8 +121,8 @@ struct Body : PointFields {
   Influence influence = Influence::one;
   std::vector<MaterialBlock> blocks;  // in the order of domain.cloud.block_names
 
-  std::vector<HeatedPoints> heated;        // by conditions
-  std::vector<double> expansion_of_sites;  // ε of owned points and ghosts, where bonds may break
+  std::vector<HeatedPoints> heated;        // points whose temperature a condition prescribes
+  std::vector<double> expansion_of_sites;  // thermal strain ε of owned points and ghosts; empty if not needed
 
   ForceStates force_states;  // of owned points and ghosts
 
@@ -119,12 +132,14 @@ struct Body : PointFields {
   std::vector<std::shared_ptr<LatticeSums>> lattice_sums;
 
   int owned() const { return domain.owned; }
-  // True if the point takes part in a substep of this level.
-  bool is_due(int i, int level) const { return time_levels.empty() || time_levels[i] >= level; }
-  // The point's own step as a fraction of the step of a level.
-  double share(int i, int level = 0) const { return time_levels.empty() ? 1 : power_of_two(level - time_levels[i]); }
+  // True if the stress of the point advances in the substeps of this time-step level.
+  bool is_active(int i, int level) const { return time_levels.empty() || time_levels[i] >= level; }
+  // Length of the point's own step over that of a step of `level`, 2^(level − h).
+  double step_fraction(int i, int level = 0) const {
+    return time_levels.empty() ? 1 : power_of_two(level - time_levels[i]);
+  }
   const MaterialBlock& block_of(int i) const { return blocks[domain.cloud.blocks[i]]; }
-  // Energy of the stabilization, J/m³; current when the residual is.
+  // Energy of the stabilization springs, J/m³ of reference volume; current after a step with diagnostics.
   double stabilization_work(int i) const {
     const bool in_bonds = block_of(i).has_springs(ResidualKind::both_gradients);
     return in_bonds ? bond_work[i] : 0.5 * points[i].stabilization * residual[i];
@@ -133,14 +148,14 @@ struct Body : PointFields {
     return std::any_of(blocks.begin(), blocks.end(), [&](const MaterialBlock& b) { return b.has_springs(residual); });
   }
   double mass(int i) const { return density[i] * domain.volume(i); }
-  // Fraction of its cell's inertia that is the point's own; below 1 where a condition assigns a part to another body.
-  double inertia_share(int i) const {
+  // Mass of the point over that of its cell: below 1 where a non-reflecting end takes off a part (setup/open_ends.cpp).
+  double inertia_fraction(int i) const {
     return density[i] / (block_of(i).material.density * (mass_scale.empty() ? 1 : mass_scale[i]));
   }
   Vector current(int i) const { return domain.current(i); }
   // Integration point q of block.points[k].
   MaterialPoint integration_point(const MaterialBlock& block, std::size_t k, int q) const {
-    return block.is_quadratic() ? block.cells[block.place(k, q)] : points[block.points[k]];
+    return block.is_quadratic() ? block.cells[block.index(k, q)] : points[block.points[k]];
   }
   // True if bonds of an owned point have broken.
   bool has_lost_bonds(int i) const { return !domain.families.broken.empty() && !domain.families.broken[i].empty(); }

@@ -16,13 +16,13 @@ PointEnergy law_energy(const Body& body, const MaterialBlock& block, const L& la
   PointEnergy sum;
   for (int q = 0; q < places; ++q) {
     const MaterialPoint point = body.integration_point(block, k, q);
-    const auto state = block.state_of<L>(block.place(k, q));
+    const auto state = block.state_of<L>(block.index(k, q));
     const double J = point.deformation_gradient.determinant();
     if (carries_stress) sum.elastic += materials::stored_energy_of(law, point.stress, state, J) / places;
     sum.dissipated += law.dissipation(state) / places;
     if constexpr (materials::opens_cracks<L>) sum.cracks += law.crack_work(state) / places;
     if constexpr (materials::tells_heat<L>) sum.heat += law.heat(state) / places;
-    if (!block.viscous.empty()) sum.dissipated += block.viscous[block.place(k, q)].work / places;
+    if (!block.viscous.empty()) sum.dissipated += block.viscous[block.index(k, q)].work / places;
   }
   return sum;
 }

@@ -32,13 +32,13 @@ void set_reference_temperatures(Body& body, double t) {
 
 void set_expansion(Body& body, double time, double dt, int level) {
   for (std::size_t i = 0; i < body.expansion.size(); ++i) {
-    if (body.is_due(static_cast<int>(i), level)) body.expansion[i].before = body.expansion[i].now;
+    if (body.is_active(static_cast<int>(i), level)) body.expansion[i].before = body.expansion[i].now;
   }
   if (!(dt > 0)) return;
   for (const HeatedPoints& heated : body.heated) {
     for (const int i : heated.points) {
       const double alpha = body.block_of(i).material.thermal_expansion;
-      if (alpha == 0 || !body.is_due(i, level)) continue;
+      if (alpha == 0 || !body.is_active(i, level)) continue;
       body.expansion[i].now = alpha * (temperature(heated, body, i, time) - body.expansion[i].reference);
     }
   }

@@ -50,11 +50,11 @@ inline std::string expected_error_text(double thickness, const std::string& plat
   const char* bound = thickness < known * expected_errors.front().thickness ? "more than" : "up to";
   char text[100];
   std::snprintf(text, sizeof text, "%s ±%.0f %% in the stiffness", bound, 100 * error.stiffness);
-  std::string told = text;
-  if (whole) told += " (some " + std::to_string(times_by_stairs) + " times that where whole cells make stairs)";
-  if (plateau.empty()) return told;
+  std::string described = text;
+  if (whole) described += " (some " + std::to_string(times_by_stairs) + " times that where whole cells make stairs)";
+  if (plateau.empty()) return described;
   std::snprintf(text, sizeof text, " and +%.0f/-%.0f %% ", 100 * error.above, 100 * error.below);
-  return told + text + plateau;
+  return described + text + plateau;
 }
 
 }  // namespace strut

@@ -30,7 +30,7 @@ struct ForceState : TensorRecord {
 struct GradientState : TensorRecord {
   double& stiffness() { return column[0][3]; }
   double stiffness() const { return column[0][3]; }
-  double& step_share() { return column[1][3]; }
+  double& force_factor() { return column[1][3]; }
   double kind() const { return column[2][3]; }
 };
 
@@ -54,12 +54,12 @@ inline ForceState force_state(const Tensor& A, double stiffness) {
   return state;
 }
 
-inline GradientState gradient_state(const Tensor& F, double stiffness, double step_share,
+inline GradientState gradient_state(const Tensor& F, double stiffness, double force_factor,
                                     const Stabilization& stabilization) {
   GradientState state;
   pack_tensor(F, state);
   state.stiffness() = stiffness;
-  state.step_share() = step_share;
+  state.force_factor() = force_factor;
   state.column[2][3] = static_cast<double>(stabilization.index());
   return state;
 }

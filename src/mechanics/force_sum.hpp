@@ -1,4 +1,5 @@
-// Inside mechanics: adds the forces of the bonds to what each point's own state gives.
+// Inside mechanics: adds the part of each bond's force that depends on the state of its far end. The part by the
+// point's own state is already in the force density (advance_stress).
 #pragma once
 
 #include <span>
@@ -11,14 +12,15 @@
 
 namespace strut {
 
-// Springs on the residual of both ends' gradients: one pass over the bonds for each such stabilization. Their energy is
-// ½ Σ V_i V_j ω ½ z·t. `u`: displacements of y, or of the field that replaces y in a tangent.
+// Adds the forces of the springs on the residual z of both ends' gradients, in one pass over the bonds for each such
+// stabilization. Their energy is ½ Σ V_i V_j ω ½ z·t, t the force of a bond. `u`: displacements of y, or of the field
+// that replaces y in a tangent.
 struct ResidualSum {
   const Body& body;
   Bodies bodies;
   Displacements u;
   ForceStates& states;
-  std::vector<Vector>& result;  // on entry, what the points' own states give
+  std::vector<Vector>& result;  // N/m³; on entry, the part by the points' own states
   std::span<double> energy;     // of each point; not computed if empty
 
   void operator()(Part part) const {
@@ -79,9 +81,9 @@ inline void add_to(const LaneGroup& group, const small::Vector3<small::Lanes>& f
   for (int l = 0; l < group.count; ++l) result[group.i[l]] += at(force, l);
 }
 
-// Adds up the force on every point over the formulations that its block feels. `u`: displacements of y, or of the field
-// that replaces y in a tangent; `extension_of(family)`: extensions of bonds between ordinary points; `result`: on
-// entry, what the points' own states give.
+// Adds the forces of the far ends of the bonds to `result` (N/m³; on entry, the part by the points' own states), for
+// each formulation of a block's points or their neighbors. `u`: displacements of y, or of the field that replaces y in
+// a tangent; `extension_of(family)`: extensions of bonds between ordinary points.
 template <class ExtensionOf>
 struct ForceSum {
   const Body& body;
@@ -106,7 +108,7 @@ struct ForceSum {
 
   void ordinary(Part part) const {
     for (const MaterialBlock& block : body.blocks) {
-      if (!is_due(block, bodies) || !block.feels_ordinary) continue;
+      if (!is_active(block, bodies) || !block.feels_ordinary) continue;
       over_groups(body, LaneGroups(body, block, part), [&](const LaneGroup& group, auto weight) {
         const bonds::OfCluster family{*group.cluster};
         const auto force = bonds::ordinary_force(family, body.domain.sites.data(), states.scalars.data(), weight,
@@ -118,7 +120,7 @@ struct ForceSum {
 
   void quadratic(Part part) const {
     for (const MaterialBlock& block : body.blocks) {
-      if (!is_due(block, bodies) || !block.feels_quadratic) continue;
+      if (!is_active(block, bodies) || !block.feels_quadratic) continue;
       over_groups(body, LaneGroups(body, block, part), [&](const LaneGroup& group, auto weight) {
         add_to(group, quadratic_far_forces(body, *group.cluster, states, weight), result);
       });
@@ -126,7 +128,8 @@ struct ForceSum {
   }
 };
 
-// Adds up each formulation while its states are exchanged. `timed`: returns an object that lives during one sum.
+// Sums the forces formulation by formulation: over interior points while its states are exchanged, then over boundary
+// points. `timed()`: returns a timer, which runs during one sum.
 template <class ExtensionOf, class Timed>
 void add_up(Halo& halo, const ForceSum<ExtensionOf>& sum, const Timed& timed) {
   const auto behind = [&]<class State>(std::vector<State>& states, void (ForceSum<ExtensionOf>::*over)(Part) const) {

@@ -9,7 +9,7 @@
 namespace strut {
 
 double largest_frequency_bound(const Body& body, const MaterialBlock& block) {
-  const auto of_point = [&](int k) { return frequency_bound(body, block, k) * body.share(block.points[k]); };
+  const auto of_point = [&](int k) { return frequency_bound(body, block, k) * body.step_fraction(block.points[k]); };
   return largest(0, static_cast<int>(block.points.size()), 0, of_point);
 }
 
@@ -19,9 +19,9 @@ double frequency_bound_of_cell(const Body& body, const MaterialBlock& block, int
   const int i = block.points[k];
   double fastest2 = 0;
   for (int q = 0; q < block.points_per_cell(); ++q) {
-    const std::size_t place = block.place(k, q);
-    const Tensor F = block.cells[place].deformation_gradient;
-    const double speed2 = block.moduli(place).longitudinal() / (3 * body.density[i]);
+    const std::size_t index = block.index(k, q);
+    const Tensor F = block.cells[index].deformation_gradient;
+    const double speed2 = block.moduli(index).longitudinal() / (3 * body.density[i]);
     fastest2 = std::max(fastest2, speed2 * F.determinant() * F.inverse().squaredNorm());
   }
   return std::sqrt(fastest2 * body.domain.volume(i) * body.fits->steepness(i));

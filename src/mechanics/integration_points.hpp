@@ -29,18 +29,18 @@ auto& number_of(Point& point, int n) {
   return n < 21 ? point.stress[n - 15] : point.stabilization;
 }
 inline std::vector<FieldPart> parts_of_material_point() {
-  return {{.name = "deformation_gradient", .unit = "1", .meaning = "F", .kept = true, .width = 9},
-          {.name = "rotation", .unit = "1", .meaning = "R of F = V R, two columns", .kept = true, .width = 6},
+  return {{.name = "deformation_gradient", .unit = "1", .meaning = "F", .persistent = true, .width = 9},
+          {.name = "rotation", .unit = "1", .meaning = "R of F = V R, two columns", .persistent = true, .width = 6},
           {.name = "stress",
            .unit = "Pa",
            .meaning = "Rᵀ σ R",
-           .kept = true,
+           .persistent = true,
            .variable = "Unrotated_Cauchy_Stress",
            .width = 6},
           {.name = "stabilization",
            .unit = "Pa/m⁵",
            .meaning = "C of the stabilization; none is left of a failed point",
-           .kept = true,
+           .persistent = true,
            .width = 1}};
 }
 
@@ -49,30 +49,38 @@ class CellPoints {
  public:
   static constexpr int rotation = 6, stress = 12, size = 18;  // offsets; count of all numbers
   static std::vector<FieldPart> parts() {
-    return {{.name = "cell_stretch", .unit = "1", .meaning = "U of F = R U", .kept = true, .width = rotation},
-            {.name = "cell_rotation", .unit = "1", .meaning = "R", .kept = true, .width = stress - rotation},
-            {.name = "cell_stress", .unit = "Pa", .meaning = "Rᵀ σ R", .kept = true, .width = size - stress}};
+    return {{.name = "cell_stretch", .unit = "1", .meaning = "U of F = R U", .persistent = true, .width = rotation},
+            {.name = "cell_rotation", .unit = "1", .meaning = "R", .persistent = true, .width = stress - rotation},
+            {.name = "cell_stress", .unit = "Pa", .meaning = "Rᵀ σ R", .persistent = true, .width = size - stress}};
   }
 
   void resize(std::size_t places) { numbers_.assign(places, numbers_of(MaterialPoint())); }
   std::size_t places() const { return numbers_.size(); }
-  MaterialPoint operator[](std::size_t place) const {
+  MaterialPoint operator[](std::size_t index) const {
     MaterialPoint point;
     Symmetric stretch;
-    for (int c = 0; c < 6; ++c) {
-      stretch[c] = numbers_.at(place, c);
-      point.rotation.number(c) = numbers_.at(place, rotation + c);
-      point.stress[c] = numbers_.at(place, stress + c);
-    }
+    for (int c = 0; c < 6; ++c) stretch[c] = numbers_.at(index, c);
+    point.rotation = rotation_at(index);
+    point.stress = stress_at(index);
     point.deformation_gradient = point.rotation.tensor() * to_tensor(stretch);
     return point;
   }
-  void set(std::size_t place, const MaterialPoint& point) {
-    const auto numbers = numbers_of(point);
-    for (int n = 0; n < size; ++n) numbers_.at(place, n) = numbers[n];
+  Rotation rotation_at(std::size_t index) const {
+    Rotation R;
+    for (int c = 0; c < 6; ++c) R.number(c) = numbers_.at(index, rotation + c);
+    return R;
   }
-  double& at(std::size_t place, int n) { return numbers_.at(place, n); }
-  double at(std::size_t place, int n) const { return numbers_.at(place, n); }
+  Symmetric stress_at(std::size_t index) const {
+    Symmetric of_point;
+    for (int c = 0; c < 6; ++c) of_point[c] = numbers_.at(index, stress + c);
+    return of_point;
+  }
+  void set(std::size_t index, const MaterialPoint& point) {
+    const auto numbers = numbers_of(point);
+    for (int n = 0; n < size; ++n) numbers_.at(index, n) = numbers[n];
+  }
+  double& at(std::size_t index, int n) { return numbers_.at(index, n); }
+  double at(std::size_t index, int n) const { return numbers_.at(index, n); }
   small::Tiles& tiles() { return numbers_; }
   double bytes() const { return numbers_.bytes(); }
 
@@ -99,8 +107,8 @@ struct OrdinaryPoint {
                                                        &OrdinaryPoint::energy};
   static std::vector<FieldPart> parts() {
     return {{.name = "weighted_volume", .unit = "m⁵", .meaning = "m", .width = 1},
-            {.name = "dilatation", .unit = "1", .meaning = "θ", .kept = true, .width = 1},
-            {.name = "energy", .unit = "J/m³", .meaning = "W", .kept = true, .width = 1}};
+            {.name = "dilatation", .unit = "1", .meaning = "θ", .persistent = true, .width = 1},
+            {.name = "energy", .unit = "J/m³", .meaning = "W", .persistent = true, .width = 1}};
   }
 };
 
@@ -114,21 +122,24 @@ struct ViscousPoint {
   static constexpr double ViscousPoint::*numbers[] = {&ViscousPoint::pressure, &ViscousPoint::work,
                                                       &ViscousPoint::damping, &ViscousPoint::edge};
   static std::vector<FieldPart> parts() {
-    return {
-        {.name = "viscous_pressure",
-         .unit = "Pa",
-         .meaning = "of the artificial viscosity, times J",
-         .kept = true,
-         .variable = "Viscous_Pressure",
-         .width = 1},
-        {.name = "viscous_work",
-         .unit = "J/m³",
-         .meaning = "what the artificial viscosity has taken",
-         .kept = true,
-         .variable = "Viscous_Work_Density",
-         .width = 1},
-        {.name = "viscous_damping", .unit = "1", .meaning = "part of the critical damping", .kept = true, .width = 1},
-        {.name = "edge", .unit = "m", .meaning = "of a cube as large as the cell", .width = 1}};
+    return {{.name = "viscous_pressure",
+             .unit = "Pa",
+             .meaning = "of the artificial viscosity, times J",
+             .persistent = true,
+             .variable = "Viscous_Pressure",
+             .width = 1},
+            {.name = "viscous_work",
+             .unit = "J/m³",
+             .meaning = "what the artificial viscosity has taken",
+             .persistent = true,
+             .variable = "Viscous_Work_Density",
+             .width = 1},
+            {.name = "viscous_damping",
+             .unit = "1",
+             .meaning = "part of the critical damping",
+             .persistent = true,
+             .width = 1},
+            {.name = "edge", .unit = "m", .meaning = "of a cube as large as the cell", .width = 1}};
   }
 };
 

@@ -48,7 +48,7 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics, Bo
     over(Part::interior);
     return together(reports);
   }
-  behind_exchange_of<reflect_place>(body.domain.halo, body.domain.sites, over);
+  behind_exchange_of<reflect_position>(body.domain.halo, body.domain.sites, over);
   if (breaking) breaking->finish_step();
   return together(reports);
 }

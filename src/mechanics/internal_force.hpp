@@ -9,13 +9,13 @@ namespace strut {
 // Collective. Advances F, R, stress and state from the last positions to the current ones (owned entries of sites) over
 // dt (s); dt = 0 leaves stress and state unchanged. Halo exchanges overlap with interior points.
 // `with_diagnostics`: also computes what only output needs: the energy of the stabilization, and F, R and stress
-// of ordinary points. `time`: at the end of the step, s. `breaking`: breaks bonds if dt > 0. Afterwards
-// force_density holds the force of the points' own states, for the one call of sum_forces that must follow.
+// of ordinary points. `time`: at the end of the step, s. `breaking`: breaks bonds if dt > 0. On return force_density
+// has only the part by the points' own states: exactly one call of sum_forces must follow.
 StepReport advance_stress(Body& body, double dt, bool with_diagnostics, double time = 0,
                           BondBreaking* breaking = nullptr);
 
-// Collective; call it once after advance_stress. Sets force_density, f = Σ {T − T'} V (internal force, N/m³); for a
-// subcycled point, the part of its stress that acts at the end of a whole step.
+// Collective; call it once after advance_stress. Completes force_density, f = Σ {T − T'} V (internal force, N/m³). The
+// stress of a point with substeps counts with the fraction that acts at the end of a whole step.
 void sum_forces(Body& body, bool with_diagnostics, BondBreaking* breaking = nullptr);
 
 // Calls both.

@@ -23,7 +23,7 @@ std::vector<FieldPart> parts_of_state() {
     parts.push_back({.name = std::string(name),
                      .unit = std::string(known.unit),
                      .meaning = std::string(known.meaning),
-                     .kept = true,
+                     .persistent = true,
                      .variable = std::string(name),
                      .width = 1});
   }
@@ -191,7 +191,7 @@ void set_viscous(const Domain& domain, MaterialBlock& block) {
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     const int i = block.points[k];
     const double edge = part_of_edge(domain, block, i) * std::cbrt(coincident_images(domain, i) * domain.volume(i));
-    for (int q = 0; q < block.points_per_cell(); ++q) block.viscous[block.place(k, q)].edge = edge;
+    for (int q = 0; q < block.points_per_cell(); ++q) block.viscous[block.index(k, q)].edge = edge;
   }
 }
 
@@ -257,8 +257,8 @@ void set_off_stencil(const Domain& domain, MaterialBlock& block) {
   }
 }
 
-materials::Moduli MaterialBlock::moduli(std::size_t place) const {
-  return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, state_of<L>(place)); }, material.law);
+materials::Moduli MaterialBlock::moduli(std::size_t index) const {
+  return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, state_of<L>(index)); }, material.law);
 }
 
 template class FieldOf<std::vector<MaterialPoint>>;

@@ -35,11 +35,11 @@ struct BlockMaterial {
   double thermal_expansion = 0;  // α, 1/K
 };
 
-// The law's state of the integration point `place`.
+// The law's state of the integration point `index`.
 template <class L>
-typename L::State state_in(const small::Tiles& states, std::size_t place) {
+typename L::State state_in(const small::Tiles& states, std::size_t index) {
   std::array<double, materials::state_size<L>> values{};
-  for (std::size_t c = 0; c < values.size(); ++c) values[c] = states.at(place, c);
+  for (std::size_t c = 0; c < values.size(); ++c) values[c] = states.at(index, c);
   return materials::from_columns<L>(values);
 }
 
@@ -51,7 +51,7 @@ struct MaterialBlock {
   int interior = 0;         // number of points that need no ghost; they come first
 
   FieldSet fields;
-  // The law's state variables, number by number.
+  // The law's state variables at all integration points, one row for each variable.
   FieldRef<small::Tiles> state = fields.add<small::Tiles>(At::integration_point, {});
   // Integration points of quadratic correspondence; other formulations use body.points.
   FieldRef<CellPoints> cells = fields.add<CellPoints>(At::integration_point, CellPoints::parts(), When::if_used);
@@ -59,7 +59,7 @@ struct MaterialBlock {
       fields.of_points<std::uint8_t>({.name = "flowed",
                                       .unit = "1",
                                       .meaning = "1 where the metal of a cell by quadratic correspondence has flowed",
-                                      .kept = true,
+                                      .persistent = true,
                                       .variable = "Flowed"},
                                      When::if_used);  // flow.hpp
   PointField<OrdinaryPoint> ordinary =
@@ -67,7 +67,7 @@ struct MaterialBlock {
   PointField<ViscousPoint> viscous =
       fields.add<std::vector<ViscousPoint>>(At::integration_point, ViscousPoint::parts(), When::if_used);
 
-  // The formulations of its points and of all their neighbors: forces are summed over these.
+  // True if a point of the block, or a neighbor of one, has this formulation: forces are summed over these.
   bool feels_correspondence = false, feels_ordinary = false, feels_quadratic = false;
 
   // The body moves rigidly, without strain (rigid_motion.hpp), so that nothing is computed.
@@ -85,7 +85,7 @@ struct MaterialBlock {
   std::size_t integration_points() const {
     return is_quadratic() ? 4 * in_tiles(in_tiles(interior) + points.size() - interior) : points.size();
   }
-  std::size_t place(std::size_t k, int q) const {
+  std::size_t index(std::size_t k, int q) const {
     if (!is_quadratic()) return k;
     const std::size_t slot = slot_of_cell(k);
     return (slot / small::Tiles::width * 4 + q) * small::Tiles::width + slot % small::Tiles::width;
@@ -96,11 +96,11 @@ struct MaterialBlock {
     return k < inside ? k : k - inside + in_tiles(inside);
   }
   template <class L>
-  typename L::State state_of(std::size_t place) const {
-    return state_in<L>(state, place);
+  typename L::State state_of(std::size_t index) const {
+    return state_in<L>(state, index);
   }
   // The elastic moduli of an integration point in its present state.
-  materials::Moduli moduli(std::size_t place) const;
+  materials::Moduli moduli(std::size_t index) const;
 
   bool is_ordinary() const { return material.formulation == Formulation::ordinary; }
   bool is_quadratic() const { return material.formulation == Formulation::quadratic; }

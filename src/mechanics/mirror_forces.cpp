@@ -26,16 +26,16 @@ struct OfImages : bonds::NearPoint {
 
 Vector to_vector(const small::Vector3<double>& v) { return {v.c[0], v.c[1], v.c[2]}; }
 
-// The force density (N/m³) of some bonds of a point by all formulations. `due`: the bonds of `family` whose far ends
+// The force density (N/m³) of some bonds of a point by all formulations. `active`: the bonds of `family` whose far ends
 // act at this time. `own`: true if the point's own state acts at this time, on all bonds of `family`.
-template <class Family, class Due, class Weight>
-Vector force_of(const Body& body, const Family& family, const Due& due, bool own, Weight weight) {
+template <class Family, class Active, class Weight>
+Vector force_of(const Body& body, const Family& family, const Active& active, bool own, Weight weight) {
   const Site* sites = body.domain.sites.data();
   const ForceStates& states = body.force_states;
   const int i = family.i;
   Vector force = Vector::Zero();
   if (!states.tensors.empty()) {
-    force += to_vector(bonds::far_force<true>(due, sites, states.tensors.data(), weight));
+    force += to_vector(bonds::far_force<true>(active, sites, states.tensors.data(), weight));
     Vector moment = Vector::Zero(), pull = Vector::Zero();
     bonds::over(family, sites, weight, [&](int j, double w, const auto& xi, double) {
       moment += w * to_vector(xi);
@@ -46,15 +46,16 @@ Vector force_of(const Body& body, const Family& family, const Due& due, bool own
   if (own && !states.gradients.empty()) {
     for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) {
       if (body.block_of(i).material.stabilization.index() != kind) return;
-      force += to_vector(bonds::residual<S>(kind, due, sites, states.gradients.data(), weight).force);
+      force += to_vector(bonds::residual<S>(kind, active, sites, states.gradients.data(), weight).force);
     });
   }
   if (!states.scalars.empty()) {
-    force += to_vector(bonds::ordinary_force(due, sites, states.scalars.data(), weight, bonds::OfPlaces<Due>(due)));
+    force +=
+        to_vector(bonds::ordinary_force(active, sites, states.scalars.data(), weight, bonds::OfPlaces<Active>(active)));
   }
   if (!states.quadratics.empty()) {
     const Eigen::Array4d* multipliers = body.fits->multipliers();
-    force += to_vector(bonds::quadratic_far_force(due, sites, multipliers, states.quadratics.data(), weight));
+    force += to_vector(bonds::quadratic_far_force(active, sites, multipliers, states.quadratics.data(), weight));
     if (own && body.block_of(i).is_quadratic()) {
       QuadraticFit fit;
       bonds::over(family, sites, weight, [&](int j, double w, const auto& xi, double) {
@@ -88,12 +89,12 @@ std::vector<int> moving_points(const Body& body, const std::vector<int>* moved, 
 template <class Picks>
 void for_each_image_force(const Body& body, const std::vector<int>& points, int level, const Picks& picks,
                           const auto& visit) {
-  const auto acts = [&](int j) { return picks(j) && body.is_due(j, level); };
+  const auto acts = [&](int j) { return picks(j) && body.is_active(j, level); };
   bonds::with_influence(body.influence, [&](auto weight) {
     for (const int i : points) {
       const OfImages<Picks> family{{i}, body.domain.families, picks};
-      const OfImages<decltype(acts)> due{{i}, body.domain.families, acts};
-      visit(i, Vector(body.domain.volume(i) * force_of(body, family, due, body.is_due(i, level), weight)));
+      const OfImages<decltype(acts)> active{{i}, body.domain.families, acts};
+      visit(i, Vector(body.domain.volume(i) * force_of(body, family, active, body.is_active(i, level), weight)));
     }
   });
 }
@@ -152,7 +153,7 @@ std::vector<Vector> mirror_forces(const Body& body, int level, const std::vector
 
 void serialize_mirror_forces(Archive& archive, std::vector<Vector>& forces) {
   for (std::size_t m = 0; m < forces.size(); ++m) {
-    for (int c = 0; c < 3; ++c) archive.share("mirror_force_" + std::to_string(m) + "xyz"[c], forces[m][c]);
+    for (int c = 0; c < 3; ++c) archive.rank_sum("mirror_force_" + std::to_string(m) + "xyz"[c], forces[m][c]);
   }
 }
 

@@ -33,13 +33,13 @@ void behind_exchange(const Halo& halo, std::vector<State>& states, const Work& w
 
 template <auto reflected, class Work>
 void behind_exchange_of(const Halo& halo, std::vector<Site>& places, const Work& work) {
-  between([&] { halo.start_places(places); }, [&] { halo.finish_places<reflected>(places); }, work);
+  between([&] { halo.start_positions(places); }, [&] { halo.finish_positions<reflected>(places); }, work);
 }
 
 // The bodies of a pass: forces need only the deforming ones, a tangent needs all.
 enum class Bodies { all, deforming };
 
-inline bool is_due(const MaterialBlock& block, Bodies bodies) {
+inline bool is_active(const MaterialBlock& block, Bodies bodies) {
   return bodies == Bodies::all || !block.in_rigid_motion;
 }
 
@@ -49,11 +49,13 @@ inline bool is_due(const MaterialBlock& block, Bodies bodies) {
 template <class AnyBody, class Sweep, class Work>
 void over_blocks(AnyBody& body, Bodies bodies, Part part, const Sweep& sweep, const Work& work) {
   for (auto& block : body.blocks) {
-    if (block.lattice < 0 && is_due(block, bodies)) work(block, LaneGroups(body, block, part));
+    if (block.lattice < 0 && is_active(block, bodies)) work(block, LaneGroups(body, block, part));
   }
   if (part == Part::interior) return;
   for (std::size_t l = 0; l < body.lattice_sums.size(); ++l) {
-    const auto is_on_it = [&](const MaterialBlock& b) { return b.lattice == static_cast<int>(l) && is_due(b, bodies); };
+    const auto is_on_it = [&](const MaterialBlock& b) {
+      return b.lattice == static_cast<int>(l) && is_active(b, bodies);
+    };
     if (std::none_of(body.blocks.begin(), body.blocks.end(), is_on_it)) continue;
     sweep(*body.lattice_sums[l], [&](const LatticeSums::Chunk& chunk) {
       for (auto& block : body.blocks) {

@@ -47,12 +47,12 @@ void add_cell(const Body& body, const MaterialBlock& block, int k, const std::ve
 }
 
 // Adds the springs of a point on the residuals z = η − F ξ of its own gradient: the second derivative of their energy,
-// ½ V C Σ ω V_j |z_j|². `share`: ω V_j by point; `stiffness`: V C.
-void add_springs(const Weights& weights, const Weights& bonds, const Eigen::VectorXd& share, double stiffness,
-                 Eigen::MatrixXd& matrix) {
+// ½ V C Σ ω V_j |z_j|². `weighted_volumes`: ω V_j by point; `stiffness`: V C.
+void add_springs(const Weights& weights, const Weights& bonds, const Eigen::VectorXd& weighted_volumes,
+                 double stiffness, Eigen::MatrixXd& matrix) {
   Eigen::MatrixXd residuals = -bonds.transpose() * weights;  // row j: derivative by the positions of the points
   for (int a = 1; a < residuals.rows(); ++a) residuals(a, a) += 1, residuals(a, 0) -= 1;
-  const Eigen::MatrixXd springs = stiffness * residuals.transpose() * share.asDiagonal() * residuals;
+  const Eigen::MatrixXd springs = stiffness * residuals.transpose() * weighted_volumes.asDiagonal() * residuals;
   for (int a = 0; a < springs.rows(); ++a) {
     for (int b = 0; b < springs.cols(); ++b) matrix.block<3, 3>(3 * a, 3 * b).diagonal().array() += springs(a, b);
   }
@@ -62,15 +62,15 @@ void add_point(const Body& body, const MaterialBlock& block, int k, const std::v
                PointStiffness& result) {
   const int i = block.points[k], points = static_cast<int>(result.points.size());
   Weights bonds = Weights::Zero(3, points);
-  Eigen::VectorXd share = Eigen::VectorXd::Zero(points);
+  Eigen::VectorXd weighted_volumes = Eigen::VectorXd::Zero(points);
   int a = 1;
-  over_family(body, i, [&](int, double w, const Vector& xi) { bonds.col(a) = xi, share[a++] = w; });
-  std::array<Weights, 1> weights{to_tensor(body.shape_inverse[i]) * bonds * share.asDiagonal()};
+  over_family(body, i, [&](int, double w, const Vector& xi) { bonds.col(a) = xi, weighted_volumes[a++] = w; });
+  std::array<Weights, 1> weights{to_tensor(body.shape_inverse[i]) * bonds * weighted_volumes.asDiagonal()};
   weights[0].col(0) = -weights[0].rowwise().sum();
   const auto change = [&](const std::array<Tensor, 1>& dF) { return std::array{tangents[i].times(dF[0])}; };
   add_gradients(weights, body.domain.volume(i), change, result.matrix);
   const double C = body.points[i].stabilization;
-  if (C > 0) add_springs(weights[0], bonds, share, body.domain.volume(i) * C, result.matrix);
+  if (C > 0) add_springs(weights[0], bonds, weighted_volumes, body.domain.volume(i) * C, result.matrix);
 }
 
 }  // namespace

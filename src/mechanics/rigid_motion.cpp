@@ -87,7 +87,7 @@ void update_rigid_motion(Body& body) {
   for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].in_rigid_motion &= are_one(of_body(b));
   // While all bodies were in rigid motion, ranks did not exchange positions; bonds that break need those at the start
   // of the step.
-  if (all_did && !all_move_rigidly(body)) body.domain.halo.exchange_places(body.domain.sites);
+  if (all_did && !all_move_rigidly(body)) body.domain.halo.exchange_positions(body.domain.sites);
 }
 
 }  // namespace strut

@@ -120,8 +120,8 @@ void compare_reference(Archive& archive, const Body& body) {
   expect_same_mesh(body, others);
 }
 
-Places places_of(const MaterialBlock& block) {
-  return {block.points_per_cell(), [&block](std::size_t k, int q) { return block.place(k, q); }};
+FieldIndices indices_of(const MaterialBlock& block) {
+  return {block.points_per_cell(), [&block](std::size_t k, int q) { return block.index(k, q); }};
 }
 
 }  // namespace
@@ -138,7 +138,7 @@ void serialize(Archive& archive, Body& body) {
     archive.number("rigid_motion_" + std::to_string(b), body.blocks[b].in_rigid_motion);
     MaterialBlock& block = body.blocks[b];
     archive.points("block " + std::to_string(b) + " (" + block.name + ")", ids_of(body, block.points));
-    block.fields.serialize(archive, places_of(block));
+    block.fields.serialize(archive, indices_of(block));
   }
   const auto owned = body.domain.cloud.ids.begin() + body.owned();
   archive.points("all points", {body.domain.cloud.ids.begin(), owned});
@@ -151,7 +151,7 @@ void serialize(Archive& archive, Body& body) {
   }
   if (!archive.loading()) return;
   body.domain.halo.set_stretch(stretch);  // before ghosts get their places
-  body.domain.halo.exchange_places(body.domain.sites);
+  body.domain.halo.exchange_positions(body.domain.sites);
   refit_flowed(body);
 }
 

@@ -11,13 +11,13 @@ namespace {
 
 using small::Lanes;
 
-// The force state of the tangent at one point, for δF. `share`: length of the point's own step over that of the whole
-// step; the stiffness is scaled by its square, because such a point limits its own step as a point of that stiffness
-// limits the whole step. `C`: of the springs on its own gradient, Pa/m⁵.
+// The force state of the tangent at one point, for δF. `step_fraction`: length of the point's own step over that of the
+// whole step; the stiffness is scaled by its square, because such a point limits its own step as a point of that
+// stiffness limits the whole step. `C`: of the springs on its own gradient, Pa/m⁵.
 ForceState tangent_state(const MaterialPoint& point, const Symmetric& shape_inverse, double C,
-                         const materials::Moduli& moduli, const Tensor& dF, double share) {
+                         const materials::Moduli& moduli, const Tensor& dF, double step_fraction) {
   const Tensor A = elastic_change(point, moduli, dF) * to_tensor(shape_inverse) - C * dF;
-  return bonds::force_state(share * share * A, share * share * C);
+  return bonds::force_state(step_fraction * step_fraction * A, step_fraction * step_fraction * C);
 }
 
 // The same with a given ∂P/∂F.
@@ -44,8 +44,9 @@ void set_tangent_cells(const Body& body, const MaterialBlock& block, const LaneG
     }
   }
   for (int q = 0; q < 4; ++q) cells.add_stress(q, dP[q]);
-  const Lanes share = small::lanes_of([&](int l) { return body.share(group.i[l]) * body.share(group.i[l]); });
-  cells.store(group, share, [&](int l) -> QuadraticState& { return result[group.i[l]]; });
+  const Lanes squared_fraction =
+      small::lanes_of([&](int l) { return body.step_fraction(group.i[l]) * body.step_fraction(group.i[l]); });
+  cells.store(group, squared_fraction, [&](int l) -> QuadraticState& { return result[group.i[l]]; });
 }
 
 // Sets δt of ordinary points: t is linear in the extensions, so the law itself applies to their changes.
@@ -67,13 +68,14 @@ void set_tangent_state(const Body& body, const MaterialBlock& block, int k, cons
   const MaterialPoint& point = body.points[i];
   const Symmetric& shape_inverse = body.shape_inverse[i];
   const Tensor dF = moment * to_tensor(shape_inverse);
-  const double share = body.share(i), C = block.own_springs_of(point);
+  const double step_fraction = body.step_fraction(i), C = block.own_springs_of(point);
   const ForceState state = tangents ? tangent_state(shape_inverse, C, (*tangents)[i], dF)
-                                    : tangent_state(point, shape_inverse, C, block.moduli(k), dF, share);
+                                    : tangent_state(point, shape_inverse, C, block.moduli(k), dF, step_fraction);
   states.tensors[i] = state;
   result[i] = bonds::tensor_of(state) * body.first_moment[i] + state.stiffness() * pull;
   if (block.has_springs(ResidualKind::both_gradients)) {
-    states.gradients[i] = bonds::gradient_state(dF, point.stabilization, share * share, block.material.stabilization);
+    states.gradients[i] =
+        bonds::gradient_state(dF, point.stabilization, step_fraction * step_fraction, block.material.stabilization);
   }
 }
 

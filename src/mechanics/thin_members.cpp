@@ -80,7 +80,7 @@ void add_images(const Domain& domain, const Images& images, const Eigen::Aligned
 
 // Adds for each block the material of its body around the samples that this rank has, times their volume over their
 // spacing.
-void add_shares(const Domain& domain, const std::vector<Sample>& samples, std::span<double> of_blocks) {
+void add_material(const Domain& domain, const std::vector<Sample>& samples, std::span<double> of_blocks) {
   double farthest = 0;
   for (const Sample& one : samples) farthest = std::max(farthest, reach_of(one.spacing));
   if (farthest == 0) return;
@@ -133,7 +133,7 @@ std::vector<double> thicknesses(const Domain& domain) {
   if (!images) return thicknesses;
   add_images(domain, *images, common_box(mine, domain.communicator), farthest, samples);
   add_nearby(samples, mine, farthest, domain.communicator);
-  add_shares(domain, samples, std::span(sums).subspan(found * blocks));
+  add_material(domain, samples, std::span(sums).subspan(found * blocks));
   domain.communicator.sum(sums);
   for (std::size_t b = 0; b < blocks; ++b) {
     const auto sum = [&](Sum of) { return sums[of * blocks + b]; };

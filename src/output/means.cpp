@@ -168,8 +168,8 @@ std::vector<double> MeanForces::take(double time, const Communicator& communicat
 void MeanForces::serialize(Archive& archive) {
   archive.number("mean_forces_since", since_);
   for (std::size_t k = 0; k < passed_.size(); ++k) {
-    archive.share("mean_force_passed_" + std::to_string(k), passed_[k]);
-    archive.share("mean_force_ahead_" + std::to_string(k), ahead_[k]);
+    archive.rank_sum("mean_force_passed_" + std::to_string(k), passed_[k]);
+    archive.rank_sum("mean_force_ahead_" + std::to_string(k), ahead_[k]);
   }
 }
 

@@ -195,7 +195,7 @@ Observable declared(const FieldPart& part) {
         for (std::size_t k = 0; k < block.points.size(); ++k) {
           for (int c = 0; c < width; ++c) {
             double sum = 0;
-            for (int q = 0; q < places; ++q) sum += field.number(places > 1 ? block.place(k, q) : k, first + c);
+            for (int q = 0; q < places; ++q) sum += field.number(places > 1 ? block.index(k, q) : k, first + c);
             number(block.points[k], c) = sum / places;
           }
         }

@@ -15,22 +15,22 @@ Schedule::Schedule(bool enabled, std::optional<int> frequency, std::optional<dou
       initial_time_(initial_time),
       next_time_(initial_time) {}
 
-bool Schedule::due(int step, double time) const {
+bool Schedule::is_scheduled(int step, double time) const {
   if (!enabled_) return false;
-  if (time == due_at_) return true;
+  if (time == pending_at_) return true;
   if (frequency_) return step % *frequency_ == 0;
   return interval_ && time >= next_time_ - round_off * *interval_;
 }
 
 void Schedule::serialize(Archive& archive, const std::string& name, int step, double time) {
   double interval = interval_.value_or(0), next = next_time_;
-  double due_at = !enabled_ ? due_at_ : due(step, time) ? time : never;
+  double pending_at = !enabled_ ? pending_at_ : is_scheduled(step, time) ? time : never;
   archive.number(name + "_interval", interval);
   archive.number(name + "_next", next);
-  archive.number(name + "_due_at", due_at);
+  archive.number(name + "_due_at", pending_at);
   if (!archive.loading()) return;
-  due_at_ = !enabled_ && due_at == never ? time : due_at;  // the last time of a run has output, due or not
-  if (enabled_ && due_at != never && due_at < time) uncounted_ = due_at;
+  pending_at_ = !enabled_ && pending_at == never ? time : pending_at;  // the last time of a run has output, due or not
+  if (enabled_ && pending_at != never && pending_at < time) uncounted_ = pending_at;
   if (interval == interval_.value_or(0)) {
     next_time_ = next;
   } else {

@@ -15,7 +15,7 @@ class Schedule {
  public:
   Schedule(bool enabled, std::optional<int> frequency, std::optional<double> interval, double initial_time);
 
-  bool due(int step, double time) const;
+  bool is_scheduled(int step, double time) const;
   // `step`, `time`: of the archive. A restored schedule with another interval or frequency starts anew there. Output
   // that was due there by the former one stays due: it comes after the archive. While a run goes on without this
   // output, that of its first time is remembered.
@@ -32,7 +32,7 @@ class Schedule {
   std::optional<int> frequency_;
   std::optional<double> interval_;
   double initial_time_, next_time_;
-  double due_at_ = never;  // s, a time of the former schedule at which output is still to be written
+  double pending_at_ = never;  // s, a time of the former schedule at which output is still to be written
   std::optional<double> uncounted_;
 };
 

@@ -102,7 +102,9 @@ struct OutputWriters {
     frames.open(body);
     history.open(body);
   }
-  bool due(int step, double time) const { return frames.schedule.due(step, time) || history.schedule.due(step, time); }
+  bool is_scheduled(int step, double time) const {
+    return frames.schedule.is_scheduled(step, time) || history.schedule.is_scheduled(step, time);
+  }
   void serialize(Archive& archive, int step, double time) {
     frames.serialize(archive, step, time);
     history.serialize(archive, step, time);
@@ -113,7 +115,7 @@ struct OutputWriters {
   std::optional<Ledger> write(const Body& body, Solver& solver, const OfConditions& reactions, bool last) {
     const double now = solver.time();
     const auto wanted = [&](const auto& sink) {
-      return sink.enabled() && !sink.has(now) && (last || sink.schedule.due(solver.steps(), now));
+      return sink.enabled() && !sink.has(now) && (last || sink.schedule.is_scheduled(solver.steps(), now));
     };
     const bool frame = wanted(frames), line = wanted(history);
     if (!frame && !line) return std::nullopt;

@@ -13,7 +13,7 @@ namespace strut {
 
 namespace {
 
-constexpr int steps_between_looks = 100;
+constexpr int steps_between_checks = 100;
 constexpr double worse = 1.1;
 
 // Cost of a new partition, in steps with evenly distributed work (docs/decisions.md, Another partition).
@@ -61,7 +61,7 @@ std::optional<std::vector<int>> Balance::better_ranks(const Scene& scene, const 
   const Communicator& communicator = scene.body.domain.communicator;
   if (!enabled_ || communicator.size() == 1) return std::nullopt;
   if (most_ >= communicator.size() && !verbose_) return std::nullopt;  // the imbalance cannot be so large
-  if (solver.steps() == 0 || solver.steps() % steps_between_looks != 0) return std::nullopt;
+  if (solver.steps() == 0 || solver.steps() % steps_between_checks != 0) return std::nullopt;
   const std::vector<double> work = work_of_points(scene, solver.contact());
   const double now = imbalance(work, std::vector<int>(work.size(), communicator.rank()), communicator);
   if (verbose_) tell(communicator, solver.steps(), "the rank with most work has " + to_text(now) + " times the mean");

@@ -80,8 +80,8 @@ void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, d
   problems.add(key, text.str());
 }
 
-bool look_at_checkpoint(const deck::Deck& deck, bool begins_anew, const Communicator& communicator,
-                        deck::Problems& problems) {
+bool check_checkpoint(const deck::Deck& deck, bool begins_anew, const Communicator& communicator,
+                      deck::Problems& problems) {
   const bool is_there = checkpoint_exists(deck, communicator);
   check_resumption(deck, is_there, begins_anew, problems);
   if (!is_there && !begins_anew) check_two_solvers(deck, communicator, problems);

@@ -28,8 +28,8 @@ void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, d
 
 // Collective. Checks, before the mesh is read, whether the run can resume from a checkpoint or start without it.
 // Returns true if it resumes from one with thermal strains.
-bool look_at_checkpoint(const deck::Deck& deck, bool begins_anew, const Communicator& communicator,
-                        deck::Problems& problems);
+bool check_checkpoint(const deck::Deck& deck, bool begins_anew, const Communicator& communicator,
+                      deck::Problems& problems);
 
 // The sets that only the history has, which may begin or end with any part of a run.
 std::set<std::string> names_of_probes(const deck::Deck& deck);

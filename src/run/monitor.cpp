@@ -31,7 +31,7 @@ constexpr double far_stretched = 8;
 constexpr double much_volume = 0.02;
 
 // Least balance error that gets a warning, relative to the largest energy; limit of an energy gain over that of a loss.
-constexpr double worth_telling = 0.01, of_gains = 0.2;
+constexpr double worth_a_warning = 0.01, of_gains = 0.2;
 
 // `text` on the first rank where `here` is true, else nothing.
 std::string of_first(const Body& body, bool here, const std::string& text) {
@@ -51,7 +51,7 @@ std::string fastest_point(const Body& body) {
   for (const MaterialBlock& block : body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const int i = block.points[k];
-      const double here = frequency_bound(body, block, static_cast<int>(k)) * body.share(i);
+      const double here = frequency_bound(body, block, static_cast<int>(k)) * body.step_fraction(i);
       if (here > largest) largest = here, fastest = i;
     }
   }
@@ -133,20 +133,21 @@ std::string without_a_number(const Body& body) {
 
 }  // namespace
 
-void Monitor::tell_once(What what, const std::string& text) {
-  if (!told_[what] && !text.empty()) tell_("WARNING: " + text + " (told once)");
-  told_[what] = true;
+void Monitor::warn_once(What what, const std::string& text) {
+  if (!warned_[what] && !text.empty()) print_("WARNING: " + text + " (told once)");
+  warned_[what] = true;
 }
 
 void Monitor::passed(What what, const std::string& text) {
   if (limits_.stops) raise_together(body_.domain.communicator, text);
-  tell_once(what, text);
+  warn_once(what, text);
 }
 
 void Monitor::check_step(const CentralDifference& solver) {
-  if (solver.went_on() && !told_[point]) {
-    if (!solver.warning().empty()) tell_("WARNING: " + solver.warning() + " (Watch > Inverted Points; told once)");
-    told_[point] = true;
+  dt_ = solver.dt();
+  if (solver.went_on() && !warned_[point]) {
+    if (!solver.warning().empty()) print_("WARNING: " + solver.warning() + " (Watch > Inverted Points; told once)");
+    warned_[point] = true;
   }
   const double now = solver.critical_time_step();  // the step that is taken may be shorter at the end of the run
   if (first_step_ == 0) first_step_ = now;
@@ -179,8 +180,9 @@ void Monitor::check_step(const CentralDifference& solver) {
 }
 
 void Monitor::check_interpenetration(double time, const contact::Contact& contact) {
-  if (!contact.any() || limits_.interpenetration >= 1 || is_silent(interpenetration) || time < next_look_) return;
-  next_look_ = time + pause_;
+  if (!contact.any() || limits_.interpenetration >= 1 || is_silent(interpenetration) || time < next_interpenetration_)
+    return;
+  next_interpenetration_ = time + pause();
   const auto found = contact::find_interpenetration(body_.domain, contact, limits_.interpenetration);
   if (!found) return;
   std::ostringstream text;
@@ -197,8 +199,8 @@ void Monitor::check_interpenetration(double time, const contact::Contact& contac
 }
 
 void Monitor::check_undeclared(double time, const contact::Contact& contact) {
-  if (told_[undeclared] || time < next_undeclared_) return;
-  next_undeclared_ = time + costly * pause_;
+  if (warned_[undeclared] || time < next_undeclared_) return;
+  next_undeclared_ = time + costly * pause();
   const auto found = contact::find_undeclared(body_.domain, contact);
   if (!found) return;
   std::ostringstream text;
@@ -216,20 +218,20 @@ void Monitor::check_undeclared(double time, const contact::Contact& contact) {
          << ". Expected: Contact > Interactions > 'Self Contact' for bodies that fold, 'General Contact' for bodies "
             "that meet";
   }
-  tell_once(undeclared, text.str());
+  warn_once(undeclared, text.str());
 }
 
 void Monitor::check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools,
                           Steps steps) {
   if (tools.empty() || time < next_tools_) return;
-  next_tools_ = time + pause_;
-  if (!told_[meeting]) check_meeting(time, conditions, tools);
-  if (told_[crossing]) return;
-  const std::vector<Vector> places = present_places(body_.domain);
+  next_tools_ = time + pause();
+  if (!warned_[meeting]) check_meeting(time, conditions, tools);
+  if (warned_[crossing]) return;
+  const std::vector<Vector> places = present_positions(body_.domain);
   std::size_t n = 0;
   conditions.visit([&](const RigidTool& tool) {
     const std::string& name = tools[n++].name;
-    if (told_[crossing] || std::holds_alternative<HalfSpace>(tool.shape)) return;
+    if (warned_[crossing] || std::holds_alternative<HalfSpace>(tool.shape)) return;
     const auto found = find_crossing(tool, time, body_.domain, places);
     if (!found) return;
     std::ostringstream text;
@@ -242,7 +244,7 @@ void Monitor::check_tools(double time, const Conditions& conditions, const std::
                                        : "; expected ")
            << "a finer mesh or a thicker tool";
     }
-    tell_once(crossing, text.str());
+    warn_once(crossing, text.str());
   });
 }
 
@@ -268,13 +270,13 @@ void Monitor::check_meeting(double time, const Conditions& conditions, const std
 void Monitor::serialize(Archive& archive) {
   archive.number("first_step", first_step_);
   archive.number("ledgers", ledgers_);
-  archive.number("next_look", next_look_);
-  archive.number("told_error", told_error_);
+  archive.number("next_look", next_interpenetration_);
+  archive.number("told_error", warned_error_);
   archive.number("next_undeclared", next_undeclared_);
   archive.number("next_tools", next_tools_);
   archive.number("next_energy", next_energy_);
   archive.number("failed_before", failed_before_);
-  for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), told_[what]);
+  for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), warned_[what]);
 }
 
 void Monitor::serialize_tools(Archive& archive, std::size_t tools) {
@@ -285,45 +287,45 @@ void Monitor::serialize_tools(Archive& archive, std::size_t tools) {
 
 // For texts that all ranks have: rank 0 prints them.
 void Monitor::warn(What what, const std::string& text) {
-  tell_once(what, body_.domain.communicator.rank() == 0 ? text : "");
+  warn_once(what, body_.domain.communicator.rank() == 0 ? text : "");
 }
 
 void Monitor::check_energy(const Ledger& ledger, bool last) {
   const double error = ledger.balance_error;
-  next_energy_ = ledger.time + pause_;
+  next_energy_ = ledger.time + pause();
   if (++ledgers_ <= first_ledgers && !last && std::isfinite(error)) return;
   const double limit = (ledger.gained > 0 ? of_gains : 1) * limits_.balance_error;
   if (!std::isfinite(error)) {
     const std::string point = without_a_number(body_);
     raise_together(body_.domain.communicator, point.empty() ? "" : at(ledger.time) + point);
   }
-  const bool is_told = !(error <= std::min(limit, worth_telling));
-  const std::string text = is_told ? at(ledger.time) + balance_of(ledger, body_) : "";
+  const bool exceeds = !(error <= std::min(limit, worth_a_warning));
+  const std::string text = exceeds ? at(ledger.time) + balance_of(ledger, body_) : "";
   if (!(error <= limit)) {
     const std::string once = body_.domain.communicator.rank() == 0 ? text : "";
     passed(energy, once);
     if (!std::isfinite(error)) raise_together(body_.domain.communicator, once);
-  } else if (error > worth_telling) {
-    if (last && error > 2 * told_error_) told_[imbalance] = false;
-    if (!told_[imbalance]) told_error_ = error;
+  } else if (error > worth_a_warning) {
+    if (last && error > 2 * warned_error_) warned_[imbalance] = false;
+    if (!warned_[imbalance]) warned_error_ = error;
     warn(imbalance, text);
   }
-  tell_if_negative(turning, "the kinetic energy", ledger.kinetic, ledger,
+  warn_if_negative(turning, "the kinetic energy", ledger.kinetic, ledger,
                    "velocities turn round from one step to the next. Likely causes: noise whose periods are of a few "
                    "steps, or a load too sudden; a smaller Safety Factor follows it");
-  tell_if_negative(
+  warn_if_negative(
       unstored, "Elastic_Energy", ledger.elastic, ledger,
       "a law gave back more energy than it stored. Likely causes: steps in which metal heats so much that "
       "its Shear Modulus Slope takes much of its modulus (more load steps; is Specific Heat in J/(kg K)?), "
       "elastic strains far beyond those of a rate form");
-  tell_if_negative(
+  warn_if_negative(
       breaking, "Fracture_Energy", ledger.fracture, ledger,
       "bonds that broke gave energy. Likely causes: a Fixed dt above the critical time step, breaks in steps "
       "that are too long for them; a smaller Safety Factor or Fixed dt");
 }
 
-void Monitor::tell_if_negative(What what, const char* name, double energy, const Ledger& ledger, const char* causes) {
-  if (!(energy < -worth_telling * ledger.largest)) return;
+void Monitor::warn_if_negative(What what, const char* name, double energy, const Ledger& ledger, const char* causes) {
+  if (!(energy < -worth_a_warning * ledger.largest)) return;
   warn(what, text_of(at(ledger.time), name, " is negative, ", energy, " J: ", causes));
 }
 
@@ -340,7 +342,7 @@ std::pair<int, int> failed_points(const Body& body) {
             for (std::size_t k = 0; k < block.points.size(); ++k) {
               int failed = 0;
               for (int q = 0; q < block.points_per_cell(); ++q) {
-                failed += block.template state_of<Law>(block.place(k, q)).failed > 0 ? 1 : 0;
+                failed += block.template state_of<Law>(block.index(k, q)).failed > 0 ? 1 : 0;
               }
               if (failed < block.points_per_cell()) continue;
               if (++count == 1) first = block.points[k];
@@ -355,7 +357,7 @@ std::pair<int, int> failed_points(const Body& body) {
 }  // namespace
 
 void Monitor::check_failed(double time) {
-  if (told_[failing]) return;
+  if (warned_[failing]) return;
   const auto [own, point] = failed_points(body_);
   const double all = body_.domain.communicator.sum(static_cast<double>(own));
   if (failed_before_ < 0) failed_before_ = all;
@@ -368,12 +370,12 @@ void Monitor::check_failed(double time) {
             "explicit "
             "steps (Solver > Verlet) where material parts";
   }
-  tell_once(failing, of_first(body_, own > 0, text.str()));
+  warn_once(failing, of_first(body_, own > 0, text.str()));
 }
 
 void Monitor::check_resolution(const Ledger& ledger, bool last) {
   if (last) check_springs(ledger.time);
-  if (!told_[stretch]) check_stretch(ledger.time);
+  if (!warned_[stretch]) check_stretch(ledger.time);
 }
 
 void Monitor::check_springs(double time) {
@@ -417,7 +419,7 @@ void Monitor::check_stretch(double time) {
          << ". Likely causes: metal near its melting temperature, a speed far above what the metal bears, a load that "
             "pulls without an end";
   }
-  tell_once(stretch, of_largest(body_, largest, text.str()));
+  warn_once(stretch, of_largest(body_, largest, text.str()));
 }
 
 }  // namespace strut

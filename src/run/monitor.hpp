@@ -2,6 +2,7 @@
 // interpenetrate.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -17,17 +18,18 @@ namespace strut {
 
 class Monitor {
  public:
-  // `duration`: of the run, s. `tell`: prints a line, on any rank.
-  Monitor(const deck::Watch& limits, double duration, const Body& body, std::function<void(const std::string&)> tell)
-      : limits_(limits), pause_(duration / looks), body_(body), tell_(std::move(tell)) {}
+  // `duration`: of the run, s. `print`: prints a line, on any rank.
+  Monitor(const deck::Watch& limits, double duration, const Body& body, std::function<void(const std::string&)> print)
+      : limits_(limits), pause_(duration / checks), body_(body), print_(std::move(print)) {}
 
   // Collective. Each check throws Error on all ranks if a limit is exceeded, or warns once if the deck says that the
-  // run continues. Costly searches are made some two hundred times in a run (`looks`).
+  // run continues. All but check_step cost about as much as a step: they are made some two hundred times in a run
+  // (`checks`), and not more often than every ten steps.
   void check_step(const CentralDifference& solver);    // after advance_velocity()
   void check_energy(const Ledger& ledger, bool last);  // `last`: of the run; it counts, however early it is
   // True if the ledger must be checked, also if nothing is written: the balance error is relative to the largest energy
   // so far, which is not that at the end.
-  bool is_energy_due(double time) const { return time >= next_energy_; }
+  bool is_energy_check_scheduled(double time) const { return time >= next_energy_; }
   void check_interpenetration(double time, const contact::Contact& contact);  // interpenetration of bodies
   // Deformation that the points do not resolve, after a step with diagnostics: warns once, never ends a run.
   void check_resolution(const Ledger& ledger, bool last);
@@ -61,32 +63,35 @@ class Monitor {
     unstored,
     count
   };
-  static constexpr double looks = 200;  // checks per run of energies, interpenetration and tools between points
-  static constexpr double costly = 10;  // one of this many checks is for undeclared contact
+  static constexpr double checks = 200;       // checks per run of energies, interpenetration and tools between points
+  static constexpr double fewest_steps = 10;  // between these checks
+  static constexpr double costly = 10;        // one of this many checks is for undeclared contact
+  double pause() const { return std::max(pause_, fewest_steps * dt_); }  // s, between checks
   void passed(What what, const std::string& text);
   // True if this limit has nothing more to say. A run that continues may stop where the one before it went on.
-  bool is_silent(What what) const { return told_[what] && !limits_.stops; }
-  void tell_once(What what, const std::string& text);
+  bool is_silent(What what) const { return warned_[what] && !limits_.stops; }
+  void warn_once(What what, const std::string& text);
   void warn(What what, const std::string& text);
   void check_meeting(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools);
-  void tell_if_negative(What what, const char* name, double energy, const Ledger& ledger, const char* causes);
+  void warn_if_negative(What what, const char* name, double energy, const Ledger& ledger, const char* causes);
   void check_springs(double time);
   void check_stretch(double time);
 
   deck::Watch limits_;
-  double pause_;  // s, between checks
+  double pause_;   // s, a part of the run's duration
+  double dt_ = 0;  // s, of the last step; none in equilibria
   // s
-  double next_look_ = std::numeric_limits<double>::lowest(), next_undeclared_ = next_look_, next_tools_ = next_look_,
-         next_energy_ = next_look_;
+  double next_interpenetration_ = std::numeric_limits<double>::lowest(), next_undeclared_ = next_interpenetration_,
+         next_tools_ = next_interpenetration_, next_energy_ = next_interpenetration_;
   const Body& body_;
-  std::function<void(const std::string&)> tell_;
+  std::function<void(const std::string&)> print_;
   static constexpr std::uint8_t apart = 1, together = 2;  // state of two tools at the first check; 0: not yet checked
   std::vector<std::uint8_t> overlapped_ = {};
   double first_step_ = 0;  // s, stable step at the start
   int ledgers_ = 0;
-  double told_error_ = 0;      // of the balance
+  double warned_error_ = 0;    // of the balance
   double failed_before_ = -1;  // points that had failed before the first load step; -1: not yet counted
-  bool told_[count] = {};
+  bool warned_[count] = {};
 };
 
 }  // namespace strut

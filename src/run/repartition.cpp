@@ -28,12 +28,13 @@ Snapshot saved(const ExplicitRun& run, int step, double time) {
 // Rebuilds everything that depends on the order of points in memory, in the order of dependence.
 void make_anew(const ExplicitRun& run, const std::vector<int>& ranks) {
   const Communicator communicator = run.scene->body.domain.communicator;
-  MigrationState kept = migration_state_of(*run.scene, moved(whole_cloud(run.scene->body.domain), ranks, communicator));
+  MigrationState migrated =
+      migration_state_of(*run.scene, moved(whole_cloud(run.scene->body.domain), ranks, communicator));
   HistoryRows* const rows = run.writers->history.kept_rows();
   run.writers.reset();
   run.solver.reset();
   run.scene.reset();
-  Scene& scene = run.scene.emplace(set_up_again(run.deck, std::move(kept), communicator));
+  Scene& scene = run.scene.emplace(set_up_again(run.deck, std::move(migrated), communicator));
   run.writers.emplace(run.deck, output_variables_of(run.deck, scene.body, scene.contact));
   run.writers->history.keep_rows(rows);
   run.solver.emplace(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
@@ -50,7 +51,7 @@ void repartition(const ExplicitRun& run, const std::vector<int>& ranks) {
   const Timed timed(timer);
   const int step = run.solver->steps();
   const double time = run.solver->time();
-  Snapshot kept = saved(run, step, time);
+  Snapshot snapshot = saved(run, step, time);
   const RanksOfPoints where = by_ids(run.scene->body.domain, ranks);
   try {
     make_anew(run, ranks);
@@ -58,7 +59,7 @@ void repartition(const ExplicitRun& run, const std::vector<int>& ranks) {
     throw LostState(error.what());
   }
   Snapshot here = saved(run, step, time);
-  move_snapshot(kept, where, here, run.scene->body.domain.communicator);
+  move_snapshot(snapshot, where, here, run.scene->body.domain.communicator);
   Archive archive = Archive::loading_from(here);
   run.solver->serialize(archive);
   run.writers->serialize(archive, step, time);

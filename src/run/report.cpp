@@ -33,7 +33,7 @@ std::string formatted(const char* format, Values... values) {
 // True if a person watches. Open MPI gives every rank a terminal of its own, so under mpirun only tools/run, which sees
 // the real one, can tell (STRUT_TERMINAL).
 bool watched() {
-  if (const char* told = std::getenv("STRUT_TERMINAL")) return std::string(told) == "1";
+  if (const char* terminal = std::getenv("STRUT_TERMINAL")) return std::string(terminal) == "1";
   return isatty(STDOUT_FILENO) != 0 && std::getenv("OMPI_COMM_WORLD_RANK") == nullptr;
 }
 
@@ -74,13 +74,13 @@ std::string Progress::left(double time) {
 void Progress::show(int step, double time, double dt) {
   if (!speaks_) return;
   constexpr double often = 0.2, seldom = 60;  // s, between lines on a terminal, and in a log
-  const double share = (time - initial_) / (final_ - initial_), pause = elapsed() - shown_elapsed_;
-  const int now = static_cast<int>(share * 10 + 1e-9);
-  const bool due = terminal_ ? pause >= often || share >= 1 : now != shown_ || pause >= seldom;
-  if (!due && shown_ >= 0) return;
-  const std::string facts = formatted("%3.0f %%  t = %.4g s  step %d  dt = %.3g s", 100 * share, time, step, dt);
+  const double fraction = (time - initial_) / (final_ - initial_), pause = elapsed() - shown_elapsed_;
+  const int now = static_cast<int>(fraction * 10 + 1e-9);
+  const bool shows = terminal_ ? pause >= often || fraction >= 1 : now != shown_ || pause >= seldom;
+  if (!shows && shown_ >= 0) return;
+  const std::string facts = formatted("%3.0f %%  t = %.4g s  step %d  dt = %.3g s", 100 * fraction, time, step, dt);
   if (terminal_) {
-    const int filled = static_cast<int>(30 * share + 1e-9);
+    const int filled = static_cast<int>(30 * fraction + 1e-9);
     std::cout << "\r[" << std::string(filled, '=') << std::string(30 - filled, ' ') << "] " << facts << left(time)
               << "   " << std::flush;
   } else {
@@ -127,7 +127,7 @@ std::string describe_scene(const Scene& scene, const Advice& advice) {
                     static_cast<long long>(scene.points), static_cast<long long>(scene.bonds), neighbors,
                     as_size(memory).c_str(), ranks, ranks == 1 ? "" : "s", threads_of_a_rank().c_str());
   text << warning_of_cores(scene.body.domain.communicator);
-  text << told(scene.dropped);
+  text << describe_dropped(scene.dropped);
   text << scene.pieces << " connected piece" << (scene.pieces == 1 ? "; " : "s; ") << advice.outline << advice.warnings;
   return text.str();
 }

@@ -102,7 +102,7 @@ struct Run::Parts {
   template <class Solver>
   void watch_bodies(Solver& solver);
   void warn_of_fixed_step();
-  bool is_something_due_next();
+  bool is_something_scheduled_next();
   void leave_step(const Pause& pause);
   void leave_equilibrium();
   template <class Action>
@@ -115,7 +115,7 @@ struct Run::Parts {
 };
 
 void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Start start) {
-  const bool has_expanded = look_at_checkpoint(deck, start == Start::anew, communicator, problems);
+  const bool has_expanded = check_checkpoint(deck, start == Start::anew, communicator, problems);
   const bool continued = start == Start::continued && checkpoint_exists(deck, communicator);
   libraries.emplace(deck, communicator);
   std::optional<StartState> state;
@@ -128,8 +128,8 @@ void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Star
   // Advice is about the state at the start of a run. A continued run that began with Start From is past that state, and
   // its mesh does not show it.
   const bool is_past = continued && deck.start_from;
-  const Advice told = is_past ? Advice{"advice was given at the start\n", scene->warnings} : advice(deck, *scene);
-  say(communicator, describe_scene(*scene, told) + started);
+  const Advice outline = is_past ? Advice{"advice was given at the start\n", scene->warnings} : advice(deck, *scene);
+  say(communicator, describe_scene(*scene, outline) + started);
   writers.emplace(
       deck, output_variables_of(deck, scene->body, scene->contact));  // checks all names before a file is replaced
   history = in_memory.history;
@@ -209,8 +209,8 @@ void Run::Parts::arrive() {
 }
 
 void Run::Parts::save() {
-  const bool wanted = is_over() ? checkpoint->due_at_the_end() : ending || saving;
-  if (wanted || checkpoint->due(number_of_steps(), time())) checkpoint->write(number_of_steps(), time());
+  const bool wanted = is_over() ? checkpoint->is_scheduled_at_end() : ending || saving;
+  if (wanted || checkpoint->is_scheduled(number_of_steps(), time())) checkpoint->write(number_of_steps(), time());
 }
 
 std::optional<Ledger> Run::Parts::record() {
@@ -230,7 +230,7 @@ void Run::Parts::watch_step() {
   watch_bodies(solver);
   writers->history.gather(solver.impulses(), solver.contact(), scene->body.domain);
   const auto ledger = record();
-  if (ledger || last || monitor->is_energy_due(solver.time())) {
+  if (ledger || last || monitor->is_energy_check_scheduled(solver.time())) {
     const Ledger now = ledger ? *ledger : solver.ledger();
     monitor->check_energy(now, last);
     monitor->check_resolution(now, last);
@@ -262,19 +262,21 @@ void Run::Parts::warn_of_fixed_step() {
 
 // Ranks agree on the tasks of the next time one step ahead, so that all compute energies at times of output or
 // checkpoints.
-bool Run::Parts::is_something_due_next() {
+bool Run::Parts::is_something_scheduled_next() {
   using Request = CentralDifference::Request;
-  steps->request(early_end.wanted() ? Request::stop : checkpoint->due_by_the_clock() ? Request::save : Request::none);
+  steps->request(early_end.wanted()                    ? Request::stop
+                 : checkpoint->is_scheduled_by_clock() ? Request::save
+                                                       : Request::none);
   ending = steps->agreed_request() == Request::stop;
   saving = steps->agreed_request() == Request::save;
   const double next = time() + steps->dt();
   const int step = number_of_steps() + 1;
-  return next >= deck.solver.final_time || ending || saving || writers->due(step, next) ||
-         monitor->is_energy_due(next) || checkpoint->due(step, next);
+  return next >= deck.solver.final_time || ending || saving || writers->is_scheduled(step, next) ||
+         monitor->is_energy_check_scheduled(next) || checkpoint->is_scheduled(step, next);
 }
 
 void Run::Parts::leave_step(const Pause& pause) {
-  const bool with_diagnostics = is_something_due_next();
+  const bool with_diagnostics = is_something_scheduled_next();
   const bool pauses = pause.steps <= 1 || time() + steps->dt() >= pause.time;
   steps->advance_position(with_diagnostics || pauses);
 }
@@ -288,7 +290,7 @@ void Run::Parts::leave_equilibrium() {
     throw;
   }
   ending = communicator.any(ending || early_end.wanted());
-  saving = ending || communicator.any(checkpoint->due_by_the_clock());
+  saving = ending || communicator.any(checkpoint->is_scheduled_by_clock());
 }
 
 // After an error the run writes a frame, says how to resume, and has ended.
@@ -324,13 +326,13 @@ void Run::Parts::hand_over() {
   const Ledger before = equilibria->ledger();
   deck = set_up_next(deck, equilibria->conditions(), equilibria->take_contact(), equilibria->take_fracture(), *scene);
   say(communicator, text_of("\nSolver 2: explicit steps from t = ", deck.solver.initial_time, " s\n", scene->warnings));
-  Snapshot kept;
-  Archive saved = Archive::saving_to(kept);
+  Snapshot snapshot;
+  Archive saved = Archive::saving_to(snapshot);
   writers->serialize(saved, number_of_steps(), time());
   close();
   writers.emplace(deck, output_variables_of(deck, scene->body, scene->contact));
   writers->history.keep_rows(history);
-  Archive restored = Archive::loading_from(kept);
+  Archive restored = Archive::loading_from(snapshot);
   writers->serialize(restored, number_of_steps(), time());
   equilibria.reset();
   balance = Balance(deck);

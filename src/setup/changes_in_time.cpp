@@ -46,9 +46,9 @@ std::vector<double> thinned(const std::vector<double>& times, int most) {
 }
 
 Jump largest_jump(const OfTime& of_time, const Steps& steps, double least) {
-  const double apart = (steps.end - steps.start) / looks_in_a_run;
+  const double apart = (steps.end - steps.start) / samples_in_a_run;
   Jump worst;
-  for (int k = 0; k < looks_in_a_run; ++k) {
+  for (int k = 0; k < samples_in_a_run; ++k) {
     const double a = steps.start + k * apart, b = a + std::max(apart, steps.longest);
     if (!(std::abs(of_time(b) - of_time(a)) > 0.5 * least)) continue;  // a half, if it goes on beyond b
     const double near = jump_between(of_time, a, b, steps.longest).time;
@@ -64,16 +64,16 @@ Jump largest_jump(const OfTime& of_time, const Steps& steps, double least) {
 }
 
 std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end) {
-  const auto time = [&](int k) { return start + (end - start) * k / looks_in_a_run; };
+  const auto time = [&](int k) { return start + (end - start) * k / samples_in_a_run; };
   std::vector<double> samples;
   double largest = 0;
-  for (int k = 0; k <= looks_in_a_run; ++k) {
+  for (int k = 0; k <= samples_in_a_run; ++k) {
     samples.push_back(of_time(time(k)));
     largest = std::max(largest, std::abs(samples.back()));
   }
   std::vector<Jump> jumps;
   if (std::abs(samples.front()) > 0.1 * largest) jumps.push_back({start, std::abs(samples.front())});
-  for (int k = 0; k < looks_in_a_run; ++k) {
+  for (int k = 0; k < samples_in_a_run; ++k) {
     if (!(std::abs(samples[k + 1] - samples[k]) > 0.1 * largest)) continue;
     const Jump jump = jump_between(of_time, time(k), time(k + 1));
     if (jump.length > 0.1 * largest) jumps.push_back(jump);
@@ -84,10 +84,10 @@ std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end) {
 // By ternary search, and by its growth toward this time: a root's inverse grows by a factor of 32.
 std::optional<double> pole_of(const OfTime& of_time, double start, double end) {
   constexpr double nearer = 1024, growth = 64;
-  const double apart = (end - start) / looks_in_a_run;
+  const double apart = (end - start) / samples_in_a_run;
   const auto size = [&of_time](double t) { return std::abs(of_time(t)); };
   double highest = start;
-  for (int k = 1; k <= looks_in_a_run; ++k) {
+  for (int k = 1; k <= samples_in_a_run; ++k) {
     if (size(start + k * apart) > size(highest)) highest = start + k * apart;
   }
   double from = std::max(start, highest - apart), to = std::min(end, highest + apart);
@@ -115,8 +115,8 @@ Where where(const std::vector<int>& points, const Body& body) {
 }
 
 void over_the_box(const Function& value, const Where& where, const std::function<void(const OfTime&)>& visit) {
-  if (value.depends_on_place() && where.box.isEmpty()) return;
-  for (int place = 0; place < (value.depends_on_place() ? 27 : 1); ++place) {
+  if (value.depends_on_position() && where.box.isEmpty()) return;
+  for (int place = 0; place < (value.depends_on_position() ? 27 : 1); ++place) {
     const Vector part(0.5 * (place % 3), 0.5 * (place / 3 % 3), 0.5 * (place / 9));
     const Vector X = where.box.min() + part.cwiseProduct(where.box.sizes());
     visit([&](double t) { return value.evaluate(X, t); });

@@ -14,7 +14,7 @@ namespace strut {
 
 using OfTime = std::function<double(double)>;
 
-constexpr int looks_in_a_run = 1000;  // samples of a function of time
+constexpr int samples_in_a_run = 1000;  // samples of a function of time
 
 struct Jump {
   double time = 0, length = 0;  // s, and m or the unit of a load

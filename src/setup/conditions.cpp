@@ -57,9 +57,9 @@ void set_reaches_from_here(double t, Scene& scene) {
 }
 
 template <ConditionType Type>
-void put(const Type& prototype, const std::string& name, std::vector<int> points, int place, const Times& times,
+void put(const Type& prototype, const std::string& name, std::vector<int> points, int index, const Times& times,
          Scene& scene) {
-  Type condition = prototype.on(std::move(points), place, scene.body);
+  Type condition = prototype.on(std::move(points), index, scene.body);
   if constexpr (std::is_same_v<Type, RigidTool>) {
     join_images(scene.body.domain.periods, condition.shape);
     if (condition.free) {
@@ -85,8 +85,8 @@ void put(const PrescribedTemperature& prototype, const std::string&, const std::
 
 // If other conditions hold points of a plane in directions not orthogonal to its normal, the plane pushes these points
 // in the directions that are left free: a separate condition for each such direction.
-void put(const SymmetryPlane& prototype, std::vector<int> points, int place, const SharedPoints& shared, Scene& scene) {
-  SymmetryPlane whole = prototype.on(std::move(points), place, scene.body);
+void put(const SymmetryPlane& prototype, std::vector<int> points, int index, const SharedPoints& shared, Scene& scene) {
+  SymmetryPlane whole = prototype.on(std::move(points), index, scene.body);
   std::vector<SymmetryPlane> parts;
   const auto add_to_part = [&](int i, const Vector& push) {
     const auto same = [&](const SymmetryPlane& one) { return *one.push == push; };
@@ -100,7 +100,7 @@ void put(const SymmetryPlane& prototype, std::vector<int> points, int place, con
   std::erase_if(whole.points, [&](int i) {
     const auto found = shared.find(i);
     if (found == shared.end()) return false;
-    const Vector push = push_of_plane(found->second, place);
+    const Vector push = push_of_plane(found->second, index);
     if (!push.isZero(0)) add_to_part(i, push);
     return true;
   });
@@ -116,11 +116,11 @@ bool needs_inertia(const deck::Condition& condition) {
 
 // Takes the initial displacement out of a plane, along its normal or in the directions that other conditions leave
 // free.
-void put_back(const SymmetryPlane& plane, const std::vector<int>& points, int place, const SharedPoints& shared,
+void put_back(const SymmetryPlane& plane, const std::vector<int>& points, int index, const SharedPoints& shared,
               Body& body) {
   for (const int i : points) {
     const auto found = shared.find(i);
-    const Vector push = found == shared.end() ? plane.normal : push_of_plane(found->second, place);
+    const Vector push = found == shared.end() ? plane.normal : push_of_plane(found->second, index);
     const Vector back = plane.normal.dot(body.displacement(i)) * push;
     body.domain.sites[i].current.head<3>() -= back.array();
   }
@@ -146,8 +146,8 @@ bool is_initial_displacement(const deck::Condition& condition) {
 
 // Checks the explicit steps after equilibria: their errors and warnings come before equilibria, which may take hours.
 // Adds their non-reflecting ends to `ends`.
-std::string look_at_next_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
-                               Conditions& ends, deck::Problems& problems) {
+std::string check_next_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
+                             Conditions& ends, deck::Problems& problems) {
   deck::Deck next = deck;
   next.solver = *deck.next_solver;
   for (std::size_t c = 0; c < points.size(); ++c) {
@@ -190,15 +190,15 @@ std::string sudden_expansion(const deck::Deck& deck, Body& body) {
       most, ", which sends waves through the bodies (Boundary Conditions, 'Prescribed Temperature')\n");
 }
 
-// `place`: index of the condition in the deck.
-void add_condition(const deck::Condition& condition, int place, std::vector<int> points, const SharedPoints& shared,
+// `index`: index of the condition in the deck.
+void add_condition(const deck::Condition& condition, int index, std::vector<int> points, const SharedPoints& shared,
                    const Times& times, Scene& scene) {
   const auto add = [&]<class Type>(const Type& prototype) {
     check_values(prototype.values_at_points(), points, times.begin, scene.body.domain);
     if constexpr (std::is_same_v<Type, SymmetryPlane>) {
-      put(prototype, std::move(points), place, shared, scene);
+      put(prototype, std::move(points), index, shared, scene);
     } else {
-      put(prototype, condition.name, std::move(points), place, times, scene);
+      put(prototype, condition.name, std::move(points), index, times, scene);
     }
   };
   std::visit(add, condition.kind);
@@ -251,10 +251,10 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
     if (plane) points[c] = plane->on(std::move(points[c]), static_cast<int>(c), scene.body).points;
   }
   const SharedPoints shared = shared_points(deck, points);
-  for (int place = 0; place < static_cast<int>(deck.conditions.size()); ++place) {
-    if (deck.next_solver && needs_inertia(deck.conditions[place])) continue;  // begins with the explicit steps
+  for (int index = 0; index < static_cast<int>(deck.conditions.size()); ++index) {
+    if (deck.next_solver && needs_inertia(deck.conditions[index])) continue;  // begins with the explicit steps
     try {
-      add_condition(deck.conditions[place], place, points[place], shared, times, scene);
+      add_condition(deck.conditions[index], index, points[index], shared, times, scene);
     } catch (const Error& error) {
       problems.add(error.what());
     }
@@ -264,13 +264,13 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
     if (!deck.start_from)
       scene.warnings += check_initial_displacements(deck, points, scene.body, problems, MayRest::yes);
     put_back_held(deck, points, shared, scene.body);
-    scene.body.domain.halo.exchange_places(scene.body.domain.sites);
+    scene.body.domain.halo.exchange_positions(scene.body.domain.sites);
   }
   raise_together(communicator, problems.text(deck.file.string()));
   if (displaces && mesh_time == deck.solver.initial_time) set_reaches_from_here(mesh_time, scene);
   check_open_ends(deck, scene.conditions, scene.body, problems);
   Conditions ends;
-  if (deck.next_solver) scene.warnings += look_at_next_steps(deck, points, scene.body, ends, problems);
+  if (deck.next_solver) scene.warnings += check_next_steps(deck, points, scene.body, ends, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   // Equilibria before the steps have the same loads. For steps after equilibria it is done.
   if (mesh_time == deck.solver.initial_time) {
@@ -278,7 +278,7 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
   }
 }
 
-void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::function<bool(int)>& knows_reaches,
+void begin_from_here(const deck::Deck& deck, const Continued& continued, const std::function<bool(int)>& knows_reaches,
                      Scene& scene, const Communicator& communicator) {
   const double t = deck.solver.initial_time;
   deck::Problems problems;
@@ -286,18 +286,18 @@ void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::functi
   for (const deck::Condition& one : deck.conditions) {
     points.push_back(points_of(scene.body.domain.cloud, one.node_set));
     const auto* initial = std::get_if<InitialVelocity>(&one.kind);
-    if (initial && !kept.velocities && !deck.next_solver) initial->set_initial_state(points.back(), t, scene.body);
+    if (initial && !continued.velocities && !deck.next_solver) initial->set_initial_state(points.back(), t, scene.body);
   }
   set_reference_temperatures(scene.body, t);  // of those that were not heated before
-  if (!kept.steps || !kept.conditions) end_rigid_motion_of_heated(scene.body);
+  if (!continued.steps || !continued.conditions) end_rigid_motion_of_heated(scene.body);
   scene.warnings += sudden_expansion(deck, scene.body);
   // Where all goes on, a point that is not where its condition has it was pushed aside: a later condition wins.
-  if (!kept.steps || !kept.conditions)
+  if (!continued.steps || !continued.conditions)
     scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   auto of_scene = scene.tools.begin();
   scene.conditions.visit([&](RigidTool& tool) {
-    of_scene->is_resumed = knows_reaches(tool.reaction_place);
+    of_scene->is_resumed = knows_reaches(tool.reaction_index);
     if (!of_scene++->is_resumed) tool.set_reaches(t, scene.body, BodyAt::present);
   });
 }

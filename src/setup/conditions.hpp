@@ -18,14 +18,14 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
 void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, const Communicator& communicator);
 
 // The parts of the other run that this run continues without a change: its time steps, its conditions, its velocities.
-struct Kept {
+struct Continued {
   bool steps = false, conditions = false, velocities = false;
 };
 
 // Collective. The same scene, whose body is now in the state of another run (Start From): gives it initial velocities,
 // unless it keeps its own, and tools their reaches, unless knows_reaches(its index in the deck). Throws Error on all
 // ranks for displacements that would jump.
-void begin_from_here(const deck::Deck& deck, const Kept& kept, const std::function<bool(int)>& knows_reaches,
+void begin_from_here(const deck::Deck& deck, const Continued& continued, const std::function<bool(int)>& knows_reaches,
                      Scene& scene, const Communicator& communicator);
 
 }  // namespace strut

@@ -23,8 +23,8 @@ constexpr double smallest_part = 0.01;
 constexpr double of_sums = 1e-3;
 
 // Values that depend on place are compared at each point, so at fewer times if there are many: some seconds at most.
-constexpr int fewest_looks = 64;
-constexpr double most_looks_at_points = 1e7;
+constexpr int fewest_samples = 64;
+constexpr double most_samples_of_points = 1e7;
 
 using Holds = std::vector<Hold>;
 
@@ -92,17 +92,17 @@ struct Interval {
 using Times = std::vector<Interval>;
 
 // Equal intervals, which end also where values may turn or jump; load steps and their middles by themselves.
-Times times_of(const deck::Solver& steps, const std::vector<double>& changes, int looks) {
+Times times_of(const deck::Solver& steps, const std::vector<double>& changes, int samples) {
   constexpr double at_once = 1e-9;  // of the run: no more than round-off in the time of a jump
   const double start = steps.initial_time, duration = steps.final_time - start;
-  std::vector<double> ends = thinned(changes, looks);
-  for (int k = 0; k <= looks; ++k) ends.push_back(start + duration * k / looks);
+  std::vector<double> ends = thinned(changes, samples);
+  for (int k = 0; k <= samples; ++k) ends.push_back(start + duration * k / samples);
   std::ranges::sort(ends);
   Times times;
   for (std::size_t n = 1; n < ends.size(); ++n) {
     if (ends[n] - ends[n - 1] > at_once * duration) times.push_back({ends[n - 1], ends[n]});
   }
-  const int halves = steps.quasi_static ? std::min(2 * steps.quasi_static->load_steps, 2 * looks) : 0;
+  const int halves = steps.quasi_static ? std::min(2 * steps.quasi_static->load_steps, 2 * samples) : 0;
   for (int k = 1; k <= halves; ++k) {
     const double t = start + duration * k / halves;
     times.push_back({t, t});
@@ -196,19 +196,19 @@ std::optional<Pair> contradiction(const Holds& holds, const Vector& X, const Tim
   return std::nullopt;
 }
 
-bool depends_on_place(const Holds& holds) {
+bool depends_on_position(const Holds& holds) {
   return std::any_of(holds.begin(), holds.end(),
-                     [](const Hold& one) { return one.value && one.value->depends_on_place(); });
+                     [](const Hold& one) { return one.value && one.value->depends_on_position(); });
 }
 
 // The times for values that depend on time alone, and for the others.
-struct Looks {
+struct SampleTimes {
   Times of_time, of_place;
 };
 
 // Collective.
-Looks looks_at(const SharedPoints& shared, const deck::Deck& deck, const deck::Solver& steps,
-               const PointsOfConditions& points, const Body& body) {
+SampleTimes sample_times(const SharedPoints& shared, const deck::Deck& deck, const deck::Solver& steps,
+                         const PointsOfConditions& points, const Body& body) {
   const Communicator& communicator = body.domain.communicator;
   if (communicator.sum(static_cast<double>(shared.size())) == 0) return {};  // nothing is compared
   std::vector<double> changes;
@@ -221,28 +221,28 @@ Looks looks_at(const SharedPoints& shared, const deck::Deck& deck, const deck::S
   }
   std::ranges::sort(changes);
   double count = 0;
-  for (const auto& [i, holds] : shared) count += depends_on_place(holds) ? 1 : 0;
+  for (const auto& [i, holds] : shared) count += depends_on_position(holds) ? 1 : 0;
   count = std::max(1.0, communicator.sum(count));
-  const double looks = std::clamp<double>(most_looks_at_points / count, fewest_looks, looks_in_a_run);
-  return {times_of(steps, changes, std::max<int>(looks_in_a_run, static_cast<int>(changes.size()))),
-          times_of(steps, changes, static_cast<int>(looks))};
+  const double samples = std::clamp<double>(most_samples_of_points / count, fewest_samples, samples_in_a_run);
+  return {times_of(steps, changes, std::max<int>(samples_in_a_run, static_cast<int>(changes.size()))),
+          times_of(steps, changes, static_cast<int>(samples))};
 }
 
 // For each pair of conditions, the points at which they contradict each other.
 std::map<Pair, std::vector<int>> contradicting_points(const SharedPoints& shared, const Body& body,
-                                                      const Looks& looks) {
+                                                      const SampleTimes& samples) {
   std::map<Pair, std::vector<int>> all;
   std::map<std::vector<int>, std::optional<Pair>> known;  // by conditions, for values independent of position
   for (const auto& [i, holds] : shared) {
     std::vector<int> conditions;
     for (const Hold& one : holds) conditions.push_back(one.condition);
-    const bool by_place = depends_on_place(holds);
+    const bool by_place = depends_on_position(holds);
     std::optional<Pair> found;
     const auto before = known.find(conditions);
     if (before != known.end() && !by_place) {
       found = before->second;
     } else {
-      found = contradiction(holds, body.domain.reference(i), by_place ? looks.of_place : looks.of_time);
+      found = contradiction(holds, body.domain.reference(i), by_place ? samples.of_place : samples.of_time);
       if (!by_place) known[conditions] = found;
     }
     if (found) all[*found].push_back(i);
@@ -282,7 +282,8 @@ void check_contradictions(const deck::Deck& deck, const PointsOfConditions& poin
                           deck::Problems& problems) {
   const SharedPoints held = shared_points(deck, points);
   const auto check = [&](const deck::Solver& steps) {
-    tell(contradicting_points(held, body, looks_at(held, deck, steps, points, body)), "motion", deck, body, problems);
+    tell(contradicting_points(held, body, sample_times(held, deck, steps, points, body)), "motion", deck, body,
+         problems);
   };
   check(deck.solver);
   if (deck.next_solver) check(*deck.next_solver);

@@ -76,7 +76,7 @@ void check_dropped(const Domain& left, const Dropped& dropped) {
                          "to go on with what is left"));
 }
 
-std::string told(const Dropped& dropped) {
+std::string describe_dropped(const Dropped& dropped) {
   return dropped.points == 0 ? "" : "dropped " + lost(dropped) + " (Degenerate Points)\n";
 }
 

@@ -28,6 +28,6 @@ void take_pieces(const Domain& left, const PiecesOfPoints& before, Dropped& drop
 void check_dropped(const Domain& left, const Dropped& dropped);
 
 // A line of the report, or nothing.
-std::string told(const Dropped& dropped);
+std::string describe_dropped(const Dropped& dropped);
 
 }  // namespace strut

@@ -45,7 +45,7 @@ double highest_for(double wanted, Body& body) {
 struct Added {
   double mass = 0, added = 0, points = 0, scaled = 0;
 
-  double share() const { return mass > 0 ? added / mass : 0; }
+  double fraction() const { return mass > 0 ? added / mass : 0; }
 };
 
 // The added mass of each block, then of all.
@@ -68,7 +68,7 @@ std::vector<Added> added_to(const Body& body) {
   return all;
 }
 
-std::string percent(double share) { return text_of(std::setprecision(3), 100 * share, " %"); }
+std::string percent(double fraction) { return text_of(std::setprecision(3), 100 * fraction, " %"); }
 
 // `most`: the largest fraction of added mass that all blocks together may have.
 std::string report_of(const Body& body, const std::vector<Added>& added, double wanted, double most) {
@@ -76,13 +76,13 @@ std::string report_of(const Body& body, const std::vector<Added>& added, double 
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     if (added[b].scaled == 0) continue;  // what round-off adds is no mass
     text << "mass scaling for a step of " << wanted << " s: block '" << body.blocks[b].name << "' gets "
-         << added[b].added << " kg, " << percent(added[b].share()) << " of its own, on " << added[b].scaled << " of "
+         << added[b].added << " kg, " << percent(added[b].fraction()) << " of its own, on " << added[b].scaled << " of "
          << added[b].points << " points\n";
-    if (added[b].share() > most)
-      text << "WARNING: the inertia of block '" << body.blocks[b].name << "' grows by " << percent(added[b].share())
+    if (added[b].fraction() > most)
+      text << "WARNING: the inertia of block '" << body.blocks[b].name << "' grows by " << percent(added[b].fraction())
            << ", more than Most Added Mass, which limits that of all blocks together; expected a shorter step\n";
   }
-  text << "mass scaling: " << added.back().added << " kg in all, " << percent(added.back().share())
+  text << "mass scaling: " << added.back().added << " kg in all, " << percent(added.back().fraction())
        << "; inertia, momentum and kinetic energy are those of the larger mass\n";
   return text.str();
 }
@@ -102,10 +102,10 @@ double scale_masses(const deck::Deck& deck, Body& body, std::string& report) {
     return 0;
   }
   const std::vector<Added> added = added_to(body);
-  const double share = added.back().share(), most = deck.solver.most_added_mass;
-  raise_together(body.domain.communicator, share > most
+  const double fraction = added.back().fraction(), most = deck.solver.most_added_mass;
+  raise_together(body.domain.communicator, fraction > most
                                                ? "Solver > Verlet > Mass Scaling dt: a step of " + to_text(wanted) +
-                                                     " s takes " + percent(share) + " more mass; expected " +
+                                                     " s takes " + percent(fraction) + " more mass; expected " +
                                                      percent(most) + " at most (Most Added Mass): want a shorter step"
                                                : "");
   report += report_of(body, added, wanted, most);

@@ -154,8 +154,8 @@ std::string unresolved_place(const PointCloud& cloud, const Communicator& commun
   const double of_all = communicator.min(first);
   if (of_all == none) return "";
   if (of_all != first) text.clear();
-  const std::vector<char> told = gather(communicator, std::span<const char>(text));
-  text.assign(told.begin(), told.end());
+  const std::vector<char> gathered = gather(communicator, std::span<const char>(text));
+  text.assign(gathered.begin(), gathered.end());
   communicator.broadcast(text);
   return text;
 }

@@ -45,7 +45,7 @@ class PlaneSearch {
 
   Place place() const {
     Place found;
-    over_body([&](std::size_t i) { look_at(i, found); });
+    over_body([&](std::size_t i) { classify(i, found); });
     double sums[] = {found.points, found.in_set, found.before, found.behind, found.distances, found.off, found.cut};
     double most[] = {-found.least, found.most, found.most_m};
     communicator_.sum(sums), communicator_.max(most);
@@ -70,7 +70,7 @@ class PlaneSearch {
     if (cloud_.at == PointsAt::nodes) return in_m / cloud_.spacings[i];
     return in_m / reach_of_cell(cloud_, cloud_.volumes[i], static_cast<int>(i), plane_.normal);
   }
-  void look_at(std::size_t i, Place& found) const {
+  void classify(std::size_t i, Place& found) const {
     const double signed_distance = plane_.distance(cloud_.positions[i]);
     ++found.points;
     const bool is_off = !plane_.holds(cloud_.positions[i], cloud_.spacings[i]);

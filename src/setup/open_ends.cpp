@@ -58,7 +58,7 @@ std::map<int, EndsOfPoint> ends_of(const Conditions& conditions, const Body& bod
       EndsOfPoint& of_point = ends[drag.point];
       of_point.inside.push_back(extent.is_inside());
       of_point.normals.push_back(extent.sum > 0 ? Vector(-end.normal) : end.normal);
-      of_point.places.push_back(end.place);
+      of_point.places.push_back(end.index);
     }
   });
   return ends;

@@ -36,7 +36,7 @@ std::vector<Eigen::AlignedBox3d> boxes_of_blocks(const PointCloud& cloud, const 
 }
 
 // The axis along which two bodies lie one after the other, if there is one: they will meet along it.
-std::optional<int> way_between(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+std::optional<int> axis_between(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
   constexpr double hardly = 0.1;  // fraction of the smaller length that may overlap
   if (a.isEmpty() || b.isEmpty()) return std::nullopt;
   const Vector common = a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min());
@@ -57,7 +57,7 @@ Vector lengths_for_cuts(const std::vector<contact::Interaction>& interactions, c
   const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_blocks(cloud, communicator);
   for (const auto& [first, second, model] : interactions) {
     if (bonds[first].body == bonds[second].body) continue;
-    if (const auto axis = way_between(boxes[first], boxes[second])) lengths[*axis] = 0.5 * alone[*axis];
+    if (const auto axis = axis_between(boxes[first], boxes[second])) lengths[*axis] = 0.5 * alone[*axis];
   }
   return lengths;
 }

@@ -103,13 +103,14 @@ MigrationState migration_state_of(const Scene& scene, PointCloud cloud) {
           scene.pieces,     scene.tools,   scene.highest_frequency, has_expanded};
 }
 
-Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicator& communicator) {
-  Scene scene = assembled(deck, std::move(kept.cloud), std::move(kept.weights), communicator);
-  scene.points = kept.points, scene.bonds = kept.bonds, scene.pieces = kept.pieces, scene.dropped = kept.dropped;
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) *scene.tools[t].touched = *kept.tools[t].touched;
-  scene.highest_frequency = kept.highest_frequency;
+Scene set_up_again(const deck::Deck& deck, MigrationState migrated, const Communicator& communicator) {
+  Scene scene = assembled(deck, std::move(migrated.cloud), std::move(migrated.weights), communicator);
+  scene.points = migrated.points, scene.bonds = migrated.bonds, scene.pieces = migrated.pieces,
+  scene.dropped = migrated.dropped;
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) *scene.tools[t].touched = *migrated.tools[t].touched;
+  scene.highest_frequency = migrated.highest_frequency;
   scale_masses(scene.highest_frequency, scene.body);
-  keep_expansion(kept.has_expanded, scene.body);
+  keep_expansion(migrated.has_expanded, scene.body);
   add_contact(deck, scene);
   return scene;
 }

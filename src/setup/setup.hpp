@@ -40,7 +40,7 @@ void keep_expansion(bool has_expanded, Body& body);
 MigrationState migration_state_of(const Scene& scene, PointCloud cloud);
 
 // Collective. The same scene on another partition, at its initial time, without its messages.
-Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicator& communicator);
+Scene set_up_again(const deck::Deck& deck, MigrationState migrated, const Communicator& communicator);
 
 // Collective. Prepares a scene whose equilibria are over for the explicit steps of the deck's second solver: keeps the
 // body in its present state, and makes the conditions and the fracture of these steps. `held`: the conditions of the

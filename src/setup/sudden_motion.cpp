@@ -64,7 +64,7 @@ std::vector<Function> sampled_values(const deck::Condition& condition) {
 }
 
 // The functions of time that give positions of points or of a tool.
-std::vector<Function> ways_of(const deck::Condition& condition) {
+std::vector<Function> positions_of(const deck::Condition& condition) {
   if (const PrescribedMotion* motion = displacement_of(condition)) return {motion->value};
   if (const auto* tool = std::get_if<RigidTool>(&condition.kind)) {
     if (!tool->free) return tool->values_at_points();
@@ -130,7 +130,7 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
     }
   }
   const std::vector<FoundPoints> found = found_points(body, moved);
-  std::ostringstream told;
+  std::ostringstream reported;
   for (std::size_t c = 0; c < points.size(); ++c) {
     if (found[c].count == 0) continue;
     const Function& value = displacement_of(deck.conditions[c])->value;
@@ -140,14 +140,14 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
          << place_text(found[c].displacement) << ", at " << place_text(found[c].one) << " and " << found[c].count - 1
          << " other points";
     if (deck.solver.quasi_static && !deck.start_from) {
-      told << value.path() << " is " << text.str() << ": the first load step takes all of it\n";
+      reported << value.path() << " is " << text.str() << ": the first load step takes all of it\n";
     } else {
       problems.add(value.path(), text.str() +
                                      "; expected the displacement that these points have then, which counts from the "
                                      "mesh, or they would be thrown within one step");
     }
   }
-  return told.str();
+  return reported.str();
 }
 
 void check_poles(const deck::Deck& deck, const PointsOfConditions& points, const Body& body, deck::Problems& problems) {
@@ -173,7 +173,7 @@ std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& poi
   std::ostringstream text;
   for (std::size_t c = 0; c < points.size(); ++c) {
     const deck::Condition& condition = deck.conditions[c];
-    std::vector<Function> values = ways_of(condition);
+    std::vector<Function> values = positions_of(condition);
     std::ranges::copy(straining_values(condition), std::back_inserter(values));
     if (std::ranges::none_of(values, &Function::depends_on_time)) continue;
     const Where there = where(points[c], body);
@@ -199,7 +199,7 @@ std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& poi
 
 std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
   if (deck.solver.quasi_static) return "";
-  constexpr double told = 0.005;  // of the impulse
+  constexpr double reported = 0.005;  // of the impulse
   const std::vector<double> times = wave_times(body);
   const double step = longest_step(deck.solver, times, std::ranges::max(times));
   const bool acts_before = deck.start_from || deck.next_solver;
@@ -212,7 +212,7 @@ std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& poi
       over_the_box(value, where(points[c], body), [&](const OfTime& of_time) {
         pulse = std::min(pulse, shortest_pulse(of_time, deck.solver.initial_time, deck.solver.final_time, acts_before));
       });
-      if (!(step > told * pulse)) continue;
+      if (!(step > reported * pulse)) continue;
       text << "WARNING: " << value.path() << ": jumps twice within " << pulse
            << " s, and each step takes the value at one "
            << "time: the integral over these is off by up to a step, about " << 100 * step / pulse
@@ -245,10 +245,10 @@ void take_missed(const std::vector<double>& values, std::size_t between, double 
 
 std::string values_between_load_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
   if (!deck.solver.quasi_static) return "";
-  constexpr std::size_t looks_between = 16;
-  constexpr double told = 0.06;  // of the largest at load steps: ten a period of a sine miss 5.1 % of that at most
+  constexpr std::size_t samples_between = 16;
+  constexpr double reported = 0.06;  // of the largest at load steps: ten a period of a sine miss 5.1 % of that at most
   constexpr double round_off = 1e-12;
-  const std::size_t count = looks_between * static_cast<std::size_t>(deck.solver.quasi_static->load_steps);
+  const std::size_t count = samples_between * static_cast<std::size_t>(deck.solver.quasi_static->load_steps);
   const double start = deck.solver.initial_time;
   const double apart = (deck.solver.final_time - start) / static_cast<double>(count);
   std::ostringstream text;
@@ -257,7 +257,7 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
     const bool strains = !values.empty();
     const auto* motion = std::get_if<PrescribedMotion>(&deck.conditions[c].kind);
     const bool is_velocity = motion && motion->is_velocity;
-    for (Function& way : ways_of(deck.conditions[c])) values.push_back(std::move(way));
+    for (Function& position : positions_of(deck.conditions[c])) values.push_back(std::move(position));
     for (Function& load : sampled_values(deck.conditions[c])) values.push_back(std::move(load));
     for (const Function& value : values) {
       if (!value.depends_on_time()) continue;
@@ -266,17 +266,17 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
       over_the_box(value, where(points[c], body), [&](const OfTime& of_time) {
         if (strains) zero = of_time(start);
         std::vector<double> all;
-        double way = 0;  // of a velocity, up to t
+        double position = 0;  // of a velocity, up to t
         for (std::size_t k = 0; k <= count; ++k) {
           const double t = start + static_cast<double>(k) * apart;
-          all.push_back(is_velocity ? way : of_time(t) - zero);
-          if (k % looks_between == 0) largest = std::max(largest, std::abs(all.back()));
+          all.push_back(is_velocity ? position : of_time(t) - zero);
+          if (k % samples_between == 0) largest = std::max(largest, std::abs(all.back()));
           if (std::isfinite(all.back())) seen = std::max(seen, std::abs(all.back()));
-          if (is_velocity) way += apart * of_time(t + 0.5 * apart);
+          if (is_velocity) position += apart * of_time(t + 0.5 * apart);
         }
-        take_missed(all, looks_between, start, apart, missed);
+        take_missed(all, samples_between, start, apart, missed);
       });
-      if (!(missed.beyond > told * largest + round_off * (std::abs(zero) + seen))) continue;
+      if (!(missed.beyond > reported * largest + round_off * (std::abs(zero) + seen))) continue;
       text << "WARNING: " << value.path()
            << (strains       ? ": changes by "
                : is_velocity ? ": its integral reaches "

@@ -143,7 +143,7 @@ Found found_on_this_rank(const std::vector<Record>& points, const Cells& cells, 
   return found;
 }
 
-std::string told(const PointCloud& cloud, const Pair& pair, std::int64_t count) {
+std::string describe(const PointCloud& cloud, const Pair& pair, std::int64_t count) {
   const auto name = [&](const Record& one) {
     std::ostringstream text;
     text << word(cloud.at) << " " << one.number << " of block '" << cloud.block_names[one.block] << "'";
@@ -176,7 +176,7 @@ std::string coincident_points(const PointCloud& cloud, const Communicator& commu
   const std::vector<Pair> pairs = gather(communicator, std::span(mine));
   const auto first = std::min_element(pairs.begin(), pairs.end(),
                                       [](const Pair& a, const Pair& b) { return a.second.id < b.second.id; });
-  std::string text = first == pairs.end() ? "" : told(cloud, *first, count);
+  std::string text = first == pairs.end() ? "" : describe(cloud, *first, count);
   communicator.broadcast(text);
   return text;
 }

@@ -50,7 +50,7 @@ struct Domain {
   double volume(int i) const { return sites[i].volume(); }                         // m³
   double horizon(int i) const { return sites[i].horizon(); }                       // δ, m
   int body_of(int i) const { return blocks[cloud.blocks[i]].body; }                // of an owned point
-  int body_count() const {  // above each body's number, which some numbers below may lack
+  int body_count() const {  // the largest number of a body plus one; numbers below it may be unused
     int count = 0;
     for (const BlockHorizons& block : blocks) count = std::max(count, block.body + 1);
     return count;

@@ -14,7 +14,7 @@ namespace strut {
 
 class Communicator;
 
-inline void reflect_place(const Reflection& by, Vector& place) { place = by(place); }
+inline void reflect_position(const Reflection& by, Vector& place) { place = by(place); }
 inline void reflect_direction(const Reflection& by, Vector& direction) { direction = (by.turn * direction).eval(); }
 
 // For values that are equal on an image and its original.
@@ -61,22 +61,22 @@ class Halo {
     finish(values);
   }
 
-  // With another reflection: the type Vector does not show whether it is a position or a direction.
+  // The same with the reflection `reflected`: the type Vector does not show whether it is a position or a direction.
   template <auto reflected, class Value>
   void exchange(std::vector<Value>& values) const {
     start(values);
     finish(values.data(), sizeof(Value), sizeof(Value), by_value<reflected, Value>);
   }
 
-  // The same for present positions alone, or for directions stored in their place.
-  void start_places(const std::vector<Site>& sites) const { start(place(sites), sizeof(Site), sizeof(Vector)); }
-  template <auto reflected = reflect_place>
-  void finish_places(std::vector<Site>& sites) const {
+  // The same for the present positions of the sites alone, or for directions that are stored instead of them.
+  void start_positions(const std::vector<Site>& sites) const { start(place(sites), sizeof(Site), sizeof(Vector)); }
+  template <auto reflected = reflect_position>
+  void finish_positions(std::vector<Site>& sites) const {
     finish(const_cast<void*>(place(sites)), sizeof(Site), sizeof(Vector), by_value<reflected, Vector>);
   }
-  void exchange_places(std::vector<Site>& sites) const {
-    start_places(sites);
-    finish_places(sites);
+  void exchange_positions(std::vector<Site>& sites) const {
+    start_positions(sites);
+    finish_positions(sites);
   }
 
   const std::vector<ImagePoint>& images() const;

@@ -30,7 +30,7 @@ Vector across(const Domain& domain, const Mirror& mirror, const MirroredForces& 
 }
 
 // The vector of least length whose product with Σ n⊗n is nearest to the force.
-Vector share(const Tensor& of_normals, const Vector& force) {
+Vector least_solution(const Tensor& of_normals, const Vector& force) {
   constexpr double dependent = 1e-12;
   const Eigen::SelfAdjointEigenSolver<Tensor> axes(of_normals);
   Vector result = Vector::Zero();
@@ -61,7 +61,7 @@ void add(const Domain& domain, int body, const MirroredForces& sums, std::vector
     }
   }
   if (others.empty()) return;
-  const Vector shared = share(of_normals, rest);
+  const Vector shared = least_solution(of_normals, rest);
   for (const std::size_t m : others) forces[m] = mirrors[m].normal.dot(shared) * mirrors[m].normal;
 }
 

@@ -237,7 +237,7 @@ Snapshot small_snapshot() {
   snapshot.groups = {{"all points", {2, 0, 1}, {{"position", 3, std::vector<double>(9, 0.5)}, {"state", 1, {1, 2, 3}}}},
                      {"block a", {}, {{"state", 2, {}}}}};
   snapshot.numbers = {{"time", 1e-6}, {"steps", 12}};
-  snapshot.shares = {{"work", -3.5}};
+  snapshot.rank_sums = {{"work", -3.5}};
   return snapshot;
 }
 

@@ -15,7 +15,7 @@ struct Anchor {
 
   static constexpr Stage stage = Stage::forces;
   static constexpr double Work::*ledger_entry = &Work::external;
-  static constexpr int reaction_place = no_reaction;
+  static constexpr int reaction_index = no_reaction;
   static constexpr InEquilibria in_equilibria = InEquilibria::impossible;
   static constexpr const char* why_not_in_equilibria =
       "'Anchor' is not known with Solver > QuasiStatic, whose tangent does not have its springs; expected a prescribed "

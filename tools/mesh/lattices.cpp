@@ -48,12 +48,12 @@ std::set<Strut> struts_of(const std::string& name) {
   const auto add = [&](const Node& from, const Node& to) { struts.insert(in_first_cell({from, to})); };
   if (name == "octet") {  // all neighbors of a face-centered lattice
     for (const Node& from : face_centered) {
-      for (const Node& way : like({0, 2, 2})) add(from, sum(from, way));
+      for (const Node& direction : like({0, 2, 2})) add(from, sum(from, direction));
     }
   } else if (name == "fcc") {
-    for (const Node& way : like({0, 2, 2})) add(origin, way);
+    for (const Node& direction : like({0, 2, 2})) add(origin, direction);
   } else if (name == "bcc") {
-    for (const Node& way : like({2, 2, 2})) add(origin, way);
+    for (const Node& direction : like({2, 2, 2})) add(origin, direction);
   } else {  // truncated octahedra around a body-centered lattice
     const std::set<Node> corners = like({0, 1, 2});
     for (const Node& a : corners) {

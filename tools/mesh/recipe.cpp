@@ -379,10 +379,10 @@ std::vector<Body> read_recipe(const std::filesystem::path& path) {
     if (!names.insert(bodies.back().name).second)
       problems.push_back("two bodies are called '" + bodies.back().name + "'");
   }
-  constexpr std::size_t most_told = 30;
-  if (problems.size() > most_told) {
-    problems[most_told] = "and " + std::to_string(problems.size() - most_told) + " others";
-    problems.resize(most_told + 1);
+  constexpr std::size_t most_reported = 30;
+  if (problems.size() > most_reported) {
+    problems[most_reported] = "and " + std::to_string(problems.size() - most_reported) + " others";
+    problems.resize(most_reported + 1);
   }
   if (!problems.empty()) throw Error(path.string() + ":\n  " + joined(problems, "\n  "));
   return bodies;

@@ -231,9 +231,10 @@ py::dict sets_of(const io::Mesh& mesh) {
 
 class PythonRun {
  public:
-  // `told`: an object with write(text) and flush(), which gets the output of the run. Only rank 0's mesh is used.
-  PythonRun(const std::string& text, const std::string& name, const io::Mesh* mesh, bool continues, py::object told)
-      : ranks_(world()), told_(std::move(told)) {
+  // `described`: an object with write(text) and flush(), which gets the output of the run. Only rank 0's mesh is used.
+  PythonRun(const std::string& text, const std::string& name, const io::Mesh* mesh, bool continues,
+            py::object described)
+      : ranks_(world()), output_(std::move(described)) {
     working([&] {
       deck::Problems problems;
       deck::Deck deck = deck::read_text(text, name, ranks_, problems);
@@ -276,7 +277,7 @@ class PythonRun {
   template <class Action>
   void working(const Action& action) {
     const Working alone;
-    const py::scoped_ostream_redirect redirected(std::cout, told_);
+    const py::scoped_ostream_redirect redirected(std::cout, output_);
     int number = 0;
     {
       const Signals signals;
@@ -291,7 +292,7 @@ class PythonRun {
   }
 
   Communicator ranks_;
-  py::object told_;
+  py::object output_;
   HistoryRows rows_;
   std::optional<Run> run_;
 };

@@ -67,10 +67,10 @@ class Machine {
         push(one.number);
         return 0;
       case Do::push_variable:
-        push(variables_[one.place]);
+        push(variables_[one.index]);
         return 0;
       case Do::pop_variable:
-        variables_[one.place] = pop();
+        variables_[one.index] = pop();
         return 0;
       case Do::truncate:
         push(std::trunc(pop()));
@@ -82,15 +82,15 @@ class Machine {
         push(pop() == 0);
         return 0;
       case Do::call:
-        call(math_functions()[one.place]);
+        call(math_functions()[one.index]);
         return 0;
       case Do::look_up:
-        push(tables_[one.place](pop()));
+        push(tables_[one.index](pop()));
         return 0;
       case Do::skip:
-        return one.place;
+        return one.index;
       case Do::skip_if_zero:
-        return pop() == 0 ? one.place : 0;
+        return pop() == 0 ? one.index : 0;
       default: {
         const double b = pop(), a = pop();
         push(combined(one.what, a, b));
@@ -120,13 +120,13 @@ class Machine {
 
 }  // namespace
 
-double LookUp::operator()(double place) const {
-  if (std::isnan(place)) return place;
-  const auto next = std::upper_bound(places.begin(), places.end(), place) - places.begin();
+double LookUp::operator()(double argument) const {
+  if (std::isnan(argument)) return argument;
+  const auto next = std::upper_bound(arguments.begin(), arguments.end(), argument) - arguments.begin();
   if (next == 0) return values.front();
-  if (next == std::ssize(places)) return values.back();
-  const double share = (place - places[next - 1]) / (places[next] - places[next - 1]);
-  return values[next - 1] + share * (values[next] - values[next - 1]);
+  if (next == std::ssize(arguments)) return values.back();
+  const double fraction = (argument - arguments[next - 1]) / (arguments[next] - arguments[next - 1]);
+  return values[next - 1] + fraction * (values[next] - values[next - 1]);
 }
 
 double Expression::operator()(double x, double y, double z, double t) const {

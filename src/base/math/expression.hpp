@@ -30,19 +30,19 @@ struct Instruction {
     both,
     either,
     call,
-    look_up,      // in the table number `place`
-    skip,         // the number of instructions in `place`
+    look_up,      // in the table number `index`
+    skip,         // the number of instructions in `index`
     skip_if_zero  // the same, if the popped number is 0
   };
   Do what;
   double number = 0;
-  int place = 0;  // index of a variable, of a function or table, or number of instructions to skip
+  int index = 0;  // index of a variable, of a function or table, or number of instructions to skip
 };
 
-// Values at rising places, linear between them and constant beyond: table(t, 0, 0, 1e-3, 5).
+// Values at rising arguments, linear between them and constant beyond: table(t, 0, 0, 1e-3, 5).
 struct LookUp {
-  std::vector<double> places, values;
-  double operator()(double place) const;
+  std::vector<double> arguments, values;
+  double operator()(double argument) const;
 };
 
 class Expression {
@@ -52,7 +52,7 @@ class Expression {
 
   double operator()(double x, double y, double z, double t) const;
 
-  bool uses_place() const { return uses_place_; }  // x, y or z
+  bool uses_position() const { return uses_position_; }  // x, y or z
   bool uses_time() const { return uses_time_; }
 
   // Limits: decks are written by hand, or their expressions by programs at most.
@@ -64,7 +64,7 @@ class Expression {
   friend class ExpressionParser;
   std::vector<Instruction> program_;
   std::vector<LookUp> tables_;
-  bool uses_place_ = false, uses_time_ = false;
+  bool uses_position_ = false, uses_time_ = false;
 };
 
 // The indices of the predefined variables.

@@ -146,14 +146,14 @@ class ExpressionParser {
 
   // ---- instructions
 
-  void emit(Do what, int place = 0, double number = 0) { result_.program_.push_back({what, number, place}); }
+  void emit(Do what, int index = 0, double number = 0) { result_.program_.push_back({what, number, index}); }
 
   // Emits a skip; land() later sets its length, so that it skips everything in between.
   std::size_t emit_skip(Do what) {
     emit(what);
     return result_.program_.size() - 1;
   }
-  void land(std::size_t skip) { result_.program_[skip].place = static_cast<int>(result_.program_.size() - skip - 1); }
+  void land(std::size_t skip) { result_.program_[skip].index = static_cast<int>(result_.program_.size() - skip - 1); }
 
   // ---- statements
 
@@ -183,17 +183,17 @@ class ExpressionParser {
 
   int assignable() {
     const std::size_t here = at_;
-    const int place = variable(name());
-    if (place >= static_cast<int>(Given::value)) return place;
+    const int index = variable(name());
+    if (index >= static_cast<int>(Given::value)) return index;
     at_ = here;
     fail("x, y, z and t cannot be changed");
   }
 
-  void assignment(int place) {
+  void assignment(int index) {
     expect("=");
     expression();
-    if (variables_[place].whole) emit(Do::truncate);
-    emit(Do::pop_variable, place);
+    if (variables_[index].whole) emit(Do::truncate);
+    emit(Do::pop_variable, index);
     end_statement();
   }
 
@@ -312,11 +312,11 @@ class ExpressionParser {
     const std::string word = name();
     if (next() == '(') return word == table_word ? table() : call(word, here);
     at_ = here;
-    const int place = variable(word);
+    const int index = variable(word);
     at_ = here + word.size();
-    result_.uses_place_ = result_.uses_place_ || place <= static_cast<int>(Given::z);
-    result_.uses_time_ = result_.uses_time_ || place == static_cast<int>(Given::t);
-    emit(Do::push_variable, place);
+    result_.uses_position_ = result_.uses_position_ || index <= static_cast<int>(Given::z);
+    result_.uses_time_ = result_.uses_time_ || index == static_cast<int>(Given::t);
+    emit(Do::push_variable, index);
   }
 
   double constant() {
@@ -338,8 +338,8 @@ class ExpressionParser {
     do {
       expect(",");
       const std::size_t here = at_;
-      found.places.push_back(constant());
-      if (found.places.size() > 1 && !(found.places.back() > found.places[found.places.size() - 2])) {
+      found.arguments.push_back(constant());
+      if (found.arguments.size() > 1 && !(found.arguments.back() > found.arguments[found.arguments.size() - 2])) {
         at_ = here;
         fail("the places of a table must rise");
       }
@@ -353,20 +353,20 @@ class ExpressionParser {
   }
 
   void call(const std::string& word, std::size_t here) {
-    const int place = function_of(word);
-    if (place < 0) {
+    const int index = function_of(word);
+    if (index < 0) {
       at_ = here;
       fail("there is no function '" + word + "'" + did_you_mean(word, functions_in_expressions()) + "; there are " +
            joined(functions_in_expressions()));
     }
     expect("(");
     expression();
-    for (int n = 1; n < math_functions()[place].arguments; ++n) {
+    for (int n = 1; n < math_functions()[index].arguments; ++n) {
       expect(",");
       expression();
     }
     expect(")");
-    emit(Do::call, place);
+    emit(Do::call, index);
   }
 
   // ---- names
@@ -378,9 +378,9 @@ class ExpressionParser {
   }
 
   int variable(const std::string& word) const {
-    const int place = place_of(word);
-    if (place < 0) fail("'" + word + "' is not a variable" + (function_of(word) < 0 ? "" : " but a function"));
-    return place;
+    const int index = place_of(word);
+    if (index < 0) fail("'" + word + "' is not a variable" + (function_of(word) < 0 ? "" : " but a function"));
+    return index;
   }
 
   static int function_of(const std::string& word) {

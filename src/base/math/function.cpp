@@ -86,7 +86,7 @@ std::string Function::first_not_finite() const {
 
 bool Function::depends_on_time() const { return program_ && program_->uses_time(); }
 
-bool Function::depends_on_place() const { return program_ && program_->uses_place(); }
+bool Function::depends_on_position() const { return program_ && program_->uses_position(); }
 
 std::vector<std::string> functions_in_expressions() {
   std::vector<std::string> names;

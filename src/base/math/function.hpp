@@ -37,7 +37,7 @@ class Function {
 
   bool is_constant() const { return program_ == nullptr; }  // the same at all positions and times
   bool depends_on_time() const;
-  bool depends_on_place() const;
+  bool depends_on_position() const;
   const std::string& text() const { return text_; }
 
  private:

@@ -94,13 +94,13 @@ void gather_scatter::exchange(const Communicator& communicator, const char* leav
       begin = end;
     }
   };
-  std::size_t own_place = 0;
+  std::size_t own_offset = 0;
   over_ranks(from_ranks, [&](int rank, std::size_t begin, std::size_t bytes) {
-    if (rank == communicator.rank()) return void(own_place = begin);
+    if (rank == communicator.rank()) return void(own_offset = begin);
     MPI_Irecv(arriving + begin, static_cast<int>(bytes), MPI_BYTE, rank, 0, comm, &requests.emplace_back());
   });
   over_ranks(to_ranks, [&](int rank, std::size_t begin, std::size_t bytes) {
-    if (rank == communicator.rank()) return void(std::copy_n(leaving + begin, bytes, arriving + own_place));
+    if (rank == communicator.rank()) return void(std::copy_n(leaving + begin, bytes, arriving + own_offset));
     MPI_Isend(leaving + begin, static_cast<int>(bytes), MPI_BYTE, rank, 0, comm, &requests.emplace_back());
   });
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);

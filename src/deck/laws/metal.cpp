@@ -15,10 +15,10 @@ const char* const heating_name = "Heating";
 const char* const equation_name = "Equation of State";
 
 const RealKey specific_heat({.name = "Specific Heat", .unit = "J/(kg K)", .range = positive, .meaning = "c_p."});
-const RealKey plastic_share({.name = "Taylor-Quinney Coefficient",
-                             .range = {.low = 0, .high = 1},
-                             .fallback = "0.9",
-                             .meaning = "β, the fraction of plastic work that heats."});
+const RealKey taylor_quinney({.name = "Taylor-Quinney Coefficient",
+                              .range = {.low = 0, .high = 1},
+                              .fallback = "0.9",
+                              .meaning = "β, the fraction of plastic work that heats."});
 
 const RealKey shear_fall({.name = "Shear Modulus Slope",
                           .unit = "1/K",
@@ -69,7 +69,7 @@ std::optional<EquationOfState> make_equation(const Values& material, double bulk
 Heating make_heating(const Values& material) {
   if (!material.has_section(heating_name)) return {};
   const Values& section = material.section(heating_name);
-  return {.capacity = read_density(material) * section[specific_heat], .plastic_share = section[plastic_share]};
+  return {.capacity = read_density(material) * section[specific_heat], .taylor_quinney = section[taylor_quinney]};
 }
 
 // Notes a bulk modulus of the elastic constants that differs: only their shear modulus counts.
@@ -100,7 +100,7 @@ Section metal_section() {
   section.sections.push_back({.name = heating_name,
                               .meaning = "Adiabatic heating, ρ c_p Ṫ = β σ̄ ε̄̇ + power of the artificial viscosity, from "
                                          "Blocks > Initial Temperature. Without this section T is constant.",
-                              .keys = {specific_heat, plastic_share}});
+                              .keys = {specific_heat, taylor_quinney}});
   section.sections.push_back(one_of(equation_name, "Pressure p under shock, instead of Hooke's law.", equations()));
   return section;
 }

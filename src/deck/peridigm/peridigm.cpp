@@ -24,7 +24,7 @@ const char* const needleman = "Viscoplastic Needleman Correspondence";
 // A key whose only meaningful value here switches it off. Another value is an error, or gets a note.
 struct OnlyOff {
   const char *key, *off, *what;
-  bool is_told = false;
+  bool is_reported = false;
 };
 const OnlyOff only_off[] = {
     {"Apply Shear Correction Factor", "false",
@@ -45,7 +45,7 @@ void drop_what_is_off(List& material, const std::string& path, Problems& problem
     const Parameter* given = find_parameter(material, key.key);
     if (!given) continue;
     const std::string where = path_to(path, key.key);
-    if (!is_off(*given, key) && !key.is_told) {
+    if (!is_off(*given, key) && !key.is_reported) {
       problems.add(where, "'" + given->value + "'; expected " + key.off + ": " + key.what);
     } else if (!*key.off || !is_off(*given, key)) {
       problems.note(where, std::string("has no effect here: ") + key.what);

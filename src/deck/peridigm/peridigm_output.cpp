@@ -251,11 +251,11 @@ class Outputs {
     if (!is_missing(field.name, is_theirs_)) return false;
     const auto known = missing_fields.find(field.name);
     const std::string instead = known == missing_fields.end() ? "" : known->second;
-    if (!among(told_, field.name)) {
+    if (!among(reported_, field.name)) {
       problems_.note(section + " > Output Variables > " + field.name,
                      "is not written: there is no such field here" + (instead.empty() ? "" : "; " + instead));
     }
-    told_.push_back(field.name);
+    reported_.push_back(field.name);
     return true;
   }
 
@@ -286,7 +286,7 @@ class Outputs {
   bool is_theirs_;
   Problems& problems_;
   std::map<std::string, std::vector<std::string>> computed_;  // label of each compute class, with its columns
-  std::vector<std::string> columns_, told_;
+  std::vector<std::string> columns_, reported_;
   std::string fields_;  // name of the section with the fields
   std::string file_;    // of the totals
   std::optional<int> frequency_;

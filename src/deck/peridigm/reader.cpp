@@ -15,12 +15,12 @@ namespace fs = std::filesystem;
 // Teuchos keeps the last of several parameters with one name.
 void keep_last_of_doubles(List& list, const std::string& path, Problems& problems) {
   for (List& one : list.lists) keep_last_of_doubles(one, path_to(path, one.name), problems);
-  std::set<std::string> seen, told;
+  std::set<std::string> seen, reported;
   std::vector<Parameter> kept;
   for (auto one = list.parameters.rbegin(); one != list.parameters.rend(); ++one) {
     if (seen.insert(one->name).second) {
       kept.push_back(*one);
-    } else if (told.insert(one->name).second) {
+    } else if (reported.insert(one->name).second) {
       problems.note(path_to(path, one->name), "is given more than once: the last one counts, as in Peridigm");
     }
   }

@@ -96,7 +96,7 @@ ConditionPrototype read_periodic_sides(const Values& values, Problems& problems)
     problems.add(values.path_to(upper_side),
                  "'" + to_text(sides.upper) + "'; expected > Lower (" + to_text(sides.lower) + "), in m");
   }
-  if (sides.stretch.depends_on_place()) {
+  if (sides.stretch.depends_on_position()) {
     problems.add(values.path_to(stretch),
                  "'" + sides.stretch.text() + "' depends on x, y or z; expected a number or an expression in t");
   }

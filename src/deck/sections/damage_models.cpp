@@ -68,11 +68,11 @@ const RealKey d2({.name = "D2", .range = not_negative, .meaning = "D₂."});
 const RealKey d3({.name = "D3", .range = {.high = 0}, .meaning = "D₃."});
 const RealKey d5({.name = "D5", .fallback = "0", .meaning = "D₅ of the factor 1 + D₅ T*."});
 const RealKey d4({.name = "D4", .range = not_negative, .fallback = "0", .meaning = "D₄."});
-const RealKey room({.name = "Reference Temperature",
-                    .unit = "K",
-                    .range = not_negative,
-                    .fallback = "293",
-                    .meaning = "T_r of T* = (T − T_r)/(T_m − T_r), at least 0."});
+const RealKey reference({.name = "Reference Temperature",
+                         .unit = "K",
+                         .range = not_negative,
+                         .fallback = "293",
+                         .meaning = "T_r of T* = (T − T_r)/(T_m − T_r), at least 0."});
 const RealKey melting({.name = "Melting Temperature",
                        .unit = "K",
                        .range = positive,
@@ -94,13 +94,13 @@ DamageModel read_johnson_cook(const Values& v, Problems& problems) {
   if (v.has(d1) && v.has(d2) && !(v[d1] + v[d2] > 0)) {
     problems.add(v.path_to(d1), "D1 + D2 is not positive: there is no plastic strain at failure in pure shear");
   }
-  if (v.has(room) && v.has(melting) && !(v[melting] > v[room])) {
+  if (v.has(reference) && v.has(melting) && !(v[melting] > v[reference])) {
     problems.add(v.path_to(melting), "expected more than the Reference Temperature, in K");
   }
   if (v[d5] != 0 && !v.given(melting)) problems.add(v.path_to(melting), "missing; with D5, " + expected(melting));
   return ductile(materials::JohnsonCookFailure{.constants = {v[d1], v[d2], v[d3], v[d4], v[d5]},
                                                .reference_rate = v[reference_rate],
-                                               .room = v[room],
+                                               .reference = v[reference],
                                                .melting = v[melting]},
                  v);
 }
@@ -120,7 +120,7 @@ DamageModel read_bond_energy(const Values& values, Problems& problems) {
 
 DamageModel read_stretch_over_time(const Values& values, Problems& problems) {
   const Function stretch = values[stretch_over_time];
-  if (stretch.depends_on_place()) {
+  if (stretch.depends_on_position()) {
     problems.add(values.path_to(stretch_over_time), "'" + stretch.text() + "'; expected an expression in t alone");
   }
   return {.critical_stretch = stretch};
@@ -156,7 +156,7 @@ const std::vector<Case<DamageModel, Problems&>>& entries() {
       {{.name = "Johnson-Cook",
         .meaning = "The same where ∫ dε̄/ε_f = 1 with ε_f of Johnson and Cook (1985); σ* is the mean stress over the "
                    "von Mises stress, at most 1.5.",
-        .keys = {d1, d2, d3, d4, d5, reference_rate, room, melting, tearing_energy, averaging_radius}},
+        .keys = {d1, d2, d3, d4, d5, reference_rate, reference, melting, tearing_energy, averaging_radius}},
        read_johnson_cook},
       {{.name = "Cockcroft-Latham",
         .meaning = "The same where the plastic work of the largest tensile principal stress reaches W_c.",

@@ -55,7 +55,7 @@ Section tool(Section section) {
 // A function of the time alone, if it is given.
 std::optional<Function> of_time(const OptionalKey<Function>& key, const Values& values, Problems& problems) {
   std::optional<Function> function = values[key];
-  if (function && function->depends_on_place()) {
+  if (function && function->depends_on_position()) {
     problems.add(
         values.path_to(key),
         "'" + function->text() + "' depends on x, y or z; expected a number or an expression in t, in " + key.unit);

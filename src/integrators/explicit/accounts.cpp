@@ -72,9 +72,9 @@ void EnergyAccount::serialize(Archive& archive) {
   archive.number("half_step", half_step_);
   archive.number("largest_energy", largest_);
   const auto serialize = [&archive](const std::string& when, Work& work) {
-    archive.share("external_work" + when, work.external);
-    archive.share("tool_work" + when, work.tools);
-    archive.share("contact_work" + when, work.contact);
+    archive.rank_sum("external_work" + when, work.external);
+    archive.rank_sum("tool_work" + when, work.tools);
+    archive.rank_sum("contact_work" + when, work.contact);
   };
   serialize("", done_);
   serialize("_before", impulse_.before);

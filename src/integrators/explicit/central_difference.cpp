@@ -20,8 +20,8 @@ namespace strut {
 
 namespace {
 
-// The largest linear viscosity. It reduces the step from the start: a step that was reduced only while a point shrinks
-// would change as soon as a body is struck, and each change costs energy.
+// The largest b₁ of all blocks. It shortens the time step from the start. If it did so only while a point shrinks, the
+// step would change as soon as a body is struck, and each change costs energy.
 double linear_viscosity(const Body& body) {
   double most = 0;
   for (const MaterialBlock& block : body.blocks) most = std::max(most, block.material.viscosity.linear);
@@ -56,8 +56,8 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
   if (!std::isfinite(first)) return;
   const std::vector<Vector> velocities = predicted_velocities(conditions_, time_, first, body_);
   contact_.foresee({body_.domain, velocities, body_.density}, first);
-  // Points that touch in the first step, or are so near that they soon may, have their levels and time step from the
-  // start: a change while bodies vibrate would add energy.
+  // Points that will be pushed within `soon` steps, or that the contact search found near others, get their time-step
+  // levels now. A change of levels while bodies vibrate would add energy.
   constexpr double soon = 10;  // steps
   std::vector<std::uint8_t> marks = pushed_points(body_, conditions_, contact_, velocities, time_, soon * first);
   contact_.mark_near(marks);
@@ -85,7 +85,7 @@ void CentralDifference::advance_velocity(double final_time) {
   const bool is_first = before == 0;
   const std::vector<Vector> inner = is_first ? *body_.force_density : std::vector<Vector>();
   add_loads();
-  // Initial velocities belong to the initial time: the first impulse is that of half a step.
+  // Initial velocities belong to the initial time, other velocities to mid-steps: the first impulse lasts half a step.
   if (is_first) body_.velocity = predicted_velocities(conditions_, time_, after, body_);
   mid_steps_.before = before / (before + after);
   for_each_point(0, body_.owned(), [&](int i) { kick(i, impulse_time); });
@@ -97,8 +97,8 @@ void CentralDifference::advance_velocity(double final_time) {
   energies_.begin_with(ledger(), is_first ? energy_of_half_step(inner) : 0);
 }
 
-// The scheme conserves the strain energy plus ½ m v⁻·v⁺, at the start ½ m (v² − (½ Δt a)²). Returns the part of the
-// second term by the inner forces, since their work is not counted.
+// The scheme conserves the strain energy plus ½ m v⁻·v⁺ (v⁻, v⁺: velocities half a step before and after), at the start
+// ½ m (v² − (½ Δt a)²). Returns the part of −½ m (½ Δt a)² that internal forces cause, J: no counted work contains it.
 double CentralDifference::energy_of_half_step(const std::vector<Vector>& inner) const {
   double sum = 0;
   for (int i = 0; i < body_.owned(); ++i) {
@@ -121,7 +121,7 @@ void CentralDifference::advance_position(bool with_diagnostics) {
   StepReport report = advance_stress(body_, dt(), with_diagnostics, time_, breaking());
   if (fracture_) fracture_->finish_criteria(body_);
   take_worse(between.failure, report.failure);
-  if (length_.levels_due()) reassign_levels(report, pushed_now());
+  if (length_.levels_pending()) reassign_levels(report, pushed_now());
   sum_all_forces(with_diagnostics);
   agree(report);
 }
@@ -133,8 +133,8 @@ void CentralDifference::sum_all_forces(bool with_diagnostics) {
   contact_.add_mirror_reactions(body_.domain, mirror_forces_);
 }
 
-// Between time() and the next time: applies the impulses of the points of higher time-step levels. Times of level m
-// come every dt/2^m.
+// Advances the points of higher time-step levels through their substeps between time() and the next whole time. Level m
+// has a substep every dt/2^m.
 StepReport CentralDifference::substeps() {
   StepReport first;
   const int levels = multi_stepping_.level_count();
@@ -171,8 +171,8 @@ StepReport CentralDifference::substep(int level, double t) {
 
 // ---- Phases of a step -----------------------------------------------------------------------------------------------
 
-// Loads act once per step, with their values at time(). With substeps a step is long; loads that change in it act with
-// their mean over the time of the impulse, sampled as many times as there are substeps.
+// Loads act once per whole step, with their values at time(). If there are substeps and loads change with time, they
+// act with their mean over the time of the impulse, from one sample per substep.
 void CentralDifference::choose_load_times(double final_time) {
   const int count = loads_change_ ? 1 << multi_stepping_.level_count() : 1;
   load_times_.assign(1, time_);
@@ -220,8 +220,8 @@ void CentralDifference::count_work(double impulse_time) {
   energies_.end_impulse(mid_steps_);
 }
 
-// Output takes the mean of both velocities for the velocity at the time of the forces. If the two steps differ,
-// replaces the velocity before by the one that a step before, as long as the step after, would have.
+// Output shows the mean of the velocities before and after time() as the velocity at time(), which is right for equal
+// steps. If the steps differ, this replaces the velocity before, so that the mean is the velocity at time().
 void CentralDifference::even_out() {
   for_each_point(0, body_.owned(), [&](int i) {
     Vector& before = body_.previous_velocity[i];
@@ -229,8 +229,8 @@ void CentralDifference::even_out() {
   });
 }
 
-// Collective. The velocities at time() of owned points, before advance_velocity(): the means of those before and after
-// an impulse of a step as long as the last one. Changes nothing.
+// Collective; before advance_velocity(). The velocities of owned points at time(), m/s: means of the velocities before
+// and after the impulse of a step as long as the last one. Leaves the body as it was.
 std::vector<Vector> CentralDifference::velocities_now() {
   const auto owned = [this](const std::vector<Vector>& all) {
     return std::vector<Vector>(all.begin(), all.begin() + body_.owned());
@@ -285,7 +285,8 @@ void CentralDifference::reassign_levels(StepReport& report, const std::vector<st
   const PresentStep present = length_.present(body_.may_break());
   if (!may_subcycle(control_)) {
     if (multi_stepping_.level_count() == 0) return;
-    report.frequency_bound = multi_stepping_.drop(body_, present);  // a run that goes on without its substeps
+    report.frequency_bound =
+        multi_stepping_.drop(body_, present);  // the run before had substeps, this deck allows none
   } else {
     const std::vector<std::uint8_t> damped = damped_points(body_, conditions_);
     report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor, present, {pushed, damped});
@@ -303,8 +304,8 @@ void CentralDifference::restrict_conditions() {
   }
 }
 
-// One reduction per step: whether a point failed anywhere, whether to stop, the largest frequency bound and damping,
-// and the numbers of contact.
+// Collective. The only reduction of a step, by maximum: whether a point has failed, whether to stop, the frequency
+// bound (1/s), the damping, whether exposed points are pushed, whether bonds broke, and the numbers of contact.
 void CentralDifference::agree(const StepReport& report) {
   const std::string no_number = conditions_.first_not_finite();
   const std::vector<std::uint8_t>& exposed = multi_stepping_.exposed();
@@ -329,7 +330,7 @@ void CentralDifference::agree(const StepReport& report) {
   const auto severity = static_cast<Severity>(agreed[0]);
   went_on_ = severity == passable;
   warning_.clear();
-  if (severity != harmless) tell(report, no_number);
+  if (severity != harmless) explain(report, no_number);
 }
 
 // The number of bonds of this rank's points that have broken since the last call.
@@ -339,7 +340,7 @@ std::int64_t CentralDifference::new_breaks() {
 }
 
 // Collective. Throws Error unless the run may continue with this report; else sets the warning.
-void CentralDifference::tell(const StepReport& report, const std::string& no_number) {
+void CentralDifference::explain(const StepReport& report, const std::string& no_number) {
   std::ostringstream text;
   if (!no_number.empty()) {
     text << no_number;
@@ -390,7 +391,8 @@ void CentralDifference::serialize_steps(Archive& archive) {
   restrict_conditions();
   if (!may_subcycle(control_) && multi_stepping_.level_count() > 0) length_.ask_for_levels();
   for (MaterialBlock& block : body_.blocks) {
-    // The bound at rest of ordinary solids does not depend on the deformation; other laws use it in rigid motion only.
+    // The frequency bound at rest is needed in rigid motion, and by ordinary solids, whose bound is always that at
+    // rest.
     if (!block.in_rigid_motion && !block.is_ordinary()) continue;
     block.rest_frequency_bound = largest_frequency_bound(body_, block);
   }

@@ -100,7 +100,7 @@ class CentralDifference {
   enum Severity { harmless, passable, fatal };
   Severity severity(const StepReport& report) const;
   void agree(const StepReport& report);
-  void tell(const StepReport& report, const std::string& no_number);
+  void explain(const StepReport& report, const std::string& no_number);
   std::int64_t new_breaks();
 
   Body& body_;

@@ -30,15 +30,16 @@ double part_after(const PresentStep& present, double bound, bool anew) {
 // of the whole step after the change over the sum of both whole steps.
 void spread_impulses(Body& body, const std::vector<std::uint8_t>& before, double after) {
   for_each_point(0, body.owned(), [&](int i) {
-    const double old_share = before.empty() ? 1 : power_of_two(-before[i]), share = body.share(i);
-    if (share == old_share) return;
-    const double mean = (1 - after) * old_share + after * share;
+    const double old_fraction = before.empty() ? 1 : power_of_two(-before[i]), step_fraction = body.step_fraction(i);
+    if (step_fraction == old_fraction) return;
+    const double mean = (1 - after) * old_fraction + after * step_fraction;
     if (!body.force_states.tensors.empty()) {
-      for (Eigen::Array4d& column : body.force_states.tensors[i].column) column *= mean / old_share;
+      for (Eigen::Array4d& column : body.force_states.tensors[i].column) column *= mean / old_fraction;
     }
-    if (!body.force_states.quadratics.empty()) scale(body.force_states.quadratics[i], mean / old_share);
-    if (body.block_of(i).has_springs(ResidualKind::both_gradients)) body.force_states.gradients[i].step_share() = mean;
-    body.force_density[i] *= mean / old_share;
+    if (!body.force_states.quadratics.empty()) scale(body.force_states.quadratics[i], mean / old_fraction);
+    if (body.block_of(i).has_springs(ResidualKind::both_gradients))
+      body.force_states.gradients[i].force_factor() = mean;
+    body.force_density[i] *= mean / old_fraction;
   });
 }
 
@@ -184,7 +185,7 @@ void MultiTimeStepping::set_moment_errors(const Body& body, Level& level) {
 StepReport MultiTimeStepping::forces(Body& body, int level, double dt, double time) {
   Level& now = levels_[level - 1];
   StepReport report;
-  now.halo.exchange_places(body.domain.sites);
+  now.halo.exchange_positions(body.domain.sites);
   set_expansion(body, time, dt, level);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     MaterialBlock& block = body.blocks[b];
@@ -226,7 +227,7 @@ void MultiTimeStepping::add_residuals(std::size_t kind, Body& body, Level& now, 
   ForceStates& states = body.force_states;
   if (states.gradients.empty()) return;
   exchange_states(now.halo, states.gradients);
-  const auto is_due = [&](int i) {
+  const auto is_active = [&](int i) {
     const MaterialBlock& block = body.block_of(i);
     return body.time_levels[i] >= level && block.material.stabilization.index() == kind &&
            block.has_springs(ResidualKind::both_gradients) && !block.in_rigid_motion;
@@ -238,7 +239,7 @@ void MultiTimeStepping::add_residuals(std::size_t kind, Body& body, Level& now, 
                                            states.gradients.data(), weight);
       for (int l = 0; l < static_cast<int>(cluster.points.size()); ++l) {
         const int i = cluster.points[l];
-        if (!is_due(i)) continue;
+        if (!is_active(i)) continue;
         add_residual(at(sums.force, l), at(sums.moment, l), body.shape_inverse[i], body.first_moment[i],
                      states.tensors[i], body.force_density[i]);
       }

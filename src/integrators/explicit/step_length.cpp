@@ -54,7 +54,7 @@ void StepLength::estimate(Body& body) {
   critical_at_estimate_ = critical_time_step_.estimate(body);
   if (kept) body.force_states = std::move(*kept);
   bound_at_estimate_ = frequency_bound_;
-  estimate_due_ = false;
+  estimate_pending_ = false;
   bonds_broke_ = false;
   allowance_ -= steps_a_renewal;
   steps_since_estimate_ = 0;
@@ -70,10 +70,10 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
   }
   // A fixed step is checked, too, more closely if it may have become too large, so that the warning is true.
   const double growth = control_.fixed_dt > critical(contact_stiffness) ? 1.01 : renewal_growth;
-  const bool estimated = estimate_due_;
+  const bool estimated = estimate_pending_;
   if (estimated) estimate(body);
-  levels_due_ = levels_due_ || frequency_bound_ > growth * bound_at_estimate_ ||
-                steps_since_estimate_ >= renewal_steps || exposed_are_pushed || (bonds_broke_ && allowance_ >= 0);
+  levels_pending_ = levels_pending_ || frequency_bound_ > growth * bound_at_estimate_ ||
+                    steps_since_estimate_ >= renewal_steps || exposed_are_pushed || (bonds_broke_ && allowance_ >= 0);
   if (control_.fixed_dt > 0) return choose_fixed(time, final_time);
   // Equal steps to the end, because a jump of dt at the last step would cost energy.
   const double longest = longest_step(contact_stiffness, body.may_break(), estimated);
@@ -147,8 +147,8 @@ void StepLength::serialize(Archive& archive, const Body& body) {
   archive.number("damping", damping_);
   archive.number("estimate_allowance", allowance_);
   archive.number("bonds_broke", bonds_broke_);
-  archive.number("levels_due", levels_due_);
-  archive.number("estimate_due", estimate_due_);
+  archive.number("levels_due", levels_pending_);
+  archive.number("estimate_due", estimate_pending_);
   archive.number("levels_anew", levels_anew_);
   archive.number("least_chosen", least_chosen_);
   archive.number("bound_of_step", bound_of_step_);

@@ -49,10 +49,10 @@ class StepLength {
   void count_step();
 
   // Time-step levels: whether to choose them anew; the data of the present step that they need; the result.
-  bool levels_due() const { return levels_due_; }
-  void ask_for_levels() { levels_due_ = true; }
+  bool levels_pending() const { return levels_pending_; }
+  void ask_for_levels() { levels_pending_ = true; }
   PresentStep present(bool bonds_may_break) const;
-  void begin_levels() { levels_due_ = false, estimate_due_ = true; }
+  void begin_levels() { levels_pending_ = false, estimate_pending_ = true; }
   void take_levels(const MultiTimeStepping& chosen);
 
   int steps() const { return steps_; }
@@ -73,7 +73,7 @@ class StepLength {
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0;
   int allowance_ = 0;  // steps made minus steps_a_renewal for each estimate: below 0, breaks cause no estimate
-  bool levels_due_ = true, estimate_due_ = true, levels_anew_ = false;
+  bool levels_pending_ = true, estimate_pending_ = true, levels_anew_ = false;
   bool bonds_broke_ = false;  // since the last estimate
 };
 

@@ -83,12 +83,12 @@ void BlockFactors::add(int row, int column, const Eigen::Matrix3d& block) {
 
 // Columns of row k of L, each before its parent: the paths of the row's entries up the elimination tree.
 std::vector<int> BlockFactors::row_of(int k, std::vector<int>& seen_by) const {
-  std::vector<int> reversed, way;
+  std::vector<int> reversed, path;
   seen_by[k] = k;
   for (int e = start_[k]; e < start_[k + 1]; ++e) {
-    way.clear();
-    for (int j = columns_[e]; seen_by[j] != k; j = parent_[j]) seen_by[j] = k, way.push_back(j);
-    reversed.insert(reversed.end(), way.rbegin(), way.rend());
+    path.clear();
+    for (int j = columns_[e]; seen_by[j] != k; j = parent_[j]) seen_by[j] = k, path.push_back(j);
+    reversed.insert(reversed.end(), path.rbegin(), path.rend());
   }
   std::reverse(reversed.begin(), reversed.end());
   return reversed;

@@ -25,7 +25,7 @@ void Constraints::hold(const HeldDirection& held) {
   const double left = held.target - held.direction.dot(places_[held.point]);
   places_[held.point] += left / length * along;
   free_projection -= along * along.transpose();
-  directions_.push_back({held.reaction_place, held.point, along});
+  directions_.push_back({held.reaction_index, held.point, along});
 }
 
 void Constraints::remove(Field& field) const {
@@ -37,13 +37,13 @@ void Constraints::keep_constrained(Field& field) const {
 }
 
 void Constraints::add_reactions(const Field& forces, std::vector<Vector>& by_condition) const {
-  for (const auto& [reaction_place, point, along] : directions_) {
-    if (static_cast<std::size_t>(reaction_place) >= by_condition.size()) continue;  // no_reaction, too
-    by_condition[reaction_place] -= along.dot(forces[point]) * along;
+  for (const auto& [reaction_index, point, along] : directions_) {
+    if (static_cast<std::size_t>(reaction_index) >= by_condition.size()) continue;  // no_reaction, too
+    by_condition[reaction_index] -= along.dot(forces[point]) * along;
   }
 }
 
-Field Constraints::way_left(const Body& body) const {
+Field Constraints::remaining_displacement(const Body& body) const {
   Field left(body.owned());
   for (int i = 0; i < body.owned(); ++i) left[i] = places_[i] - body.current(i);
   keep_constrained(left);

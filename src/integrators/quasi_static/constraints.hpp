@@ -24,13 +24,13 @@ class Constraints {
 
   // Displacements (m) from the present positions of the points to their targets along held directions; 0 along free
   // ones.
-  Field way_left(const Body& body) const;
+  Field remaining_displacement(const Body& body) const;
 
  private:
   void hold(const HeldDirection& held);
 
   struct Direction {
-    int reaction_place, point;
+    int reaction_index, point;
     Vector along;  // of unit length, orthogonal to the earlier ones of its point
   };
   std::vector<Direction> directions_;

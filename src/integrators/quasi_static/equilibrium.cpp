@@ -68,7 +68,7 @@ std::vector<std::vector<HeldPoint>> held_points(const Body& body, const Constrai
   for (int i = 0; i < body.owned(); ++i) {
     const Tensor held = Tensor::Identity() - constraints.free_projection(i);
     if (held.squaredNorm() < 0.5) continue;  // 1, 2 or 3 where it is held
-    points[body.domain.body_of(i)].push_back({start.place(i), body.current(i), -held * before[i], -held * after[i]});
+    points[body.domain.body_of(i)].push_back({start.position(i), body.current(i), -held * before[i], -held * after[i]});
   }
   return points;
 }
@@ -110,8 +110,8 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
   }
   put_back(of_body, body);
   committed_.restore(body);
-  looked_at_.resize(body.owned());
-  for (int i = 0; i < body.owned(); ++i) looked_at_[i] = body.current(i);
+  positions_of_contact_.resize(body.owned());
+  for (int i = 0; i < body.owned(); ++i) positions_of_contact_[i] = body.current(i);
 }
 
 void Equilibrium::begin(double t, double dt) {
@@ -206,17 +206,17 @@ void Equilibrium::add_contact_through_sides() {
 // Contact needs velocities to bound motion: it gets the displacements since the last trial, over one second.
 void Equilibrium::add_contact() {
   if (!contact_.any()) return;
-  std::vector<Vector> way(body_.owned());
+  std::vector<Vector> displacement(body_.owned());
   for (int i = 0; i < body_.owned(); ++i) {
-    way[i] = body_.current(i) - looked_at_[i];
-    looked_at_[i] += way[i];
+    displacement[i] = body_.current(i) - positions_of_contact_[i];
+    positions_of_contact_[i] += displacement[i];
   }
-  const contact::Kinematics kinematics{body_.domain, way, body_.density};
+  const contact::Kinematics kinematics{body_.domain, displacement, body_.density};
   std::vector<double> agreed;
   contact_.append_to_agree(kinematics, agreed);
   body_.domain.communicator.max(agreed);
   contact_.take_agreed(agreed, 1);
-  contact_.add_trial_forces(kinematics, step_way(), body_.force_density);
+  contact_.add_trial_forces(kinematics, step_displacement(), body_.force_density);
 }
 
 void Equilibrium::begin_strained(double t) {
@@ -248,21 +248,23 @@ void Equilibrium::hold_at(double t) {
   forces_before_ = forces_;
 }
 
-std::vector<Vector> Equilibrium::step_way() const {
-  std::vector<Vector> way(body_.owned());
-  for (int i = 0; i < body_.owned(); ++i) way[i] = body_.current(i) - committed_.place(i);
-  return way;
+std::vector<Vector> Equilibrium::step_displacement() const {
+  std::vector<Vector> displacement(body_.owned());
+  for (int i = 0; i < body_.owned(); ++i) displacement[i] = body_.current(i) - committed_.position(i);
+  return displacement;
 }
 
-double Equilibrium::friction_work() const { return contact_.any() ? contact_.friction_work_of_trial(step_way()) : 0; }
+double Equilibrium::friction_work() const {
+  return contact_.any() ? contact_.friction_work_of_trial(step_displacement()) : 0;
+}
 
 // Upper bound by Σ f·u ≤ ‖f‖ ‖u‖. A free body that expands has no forces but those that the search has left.
 double Equilibrium::work_of_errors() const {
-  const std::vector<double> ways = parts_.of_parts(parts_.norms(step_way(), body_.domain.communicator));
+  const std::vector<double> norms = parts_.of_parts(parts_.norms(step_displacement(), body_.domain.communicator));
   const std::vector<double> round_off = parts_.of_parts(round_off_), expansion = parts_.of_parts(expansion_scale_);
   double sum = 0;
-  for (std::size_t p = 0; p < ways.size(); ++p) {
-    sum += (round_off[p] + tolerance_.relative * expansion[p]) * ways[p];
+  for (std::size_t p = 0; p < norms.size(); ++p) {
+    sum += (round_off[p] + tolerance_.relative * expansion[p]) * norms[p];
   }
   return sum;
 }
@@ -439,10 +441,10 @@ double Equilibrium::largest_load() const {
     const MaterialBlock& block = body_.blocks[b];
     const auto* law = std::get_if<materials::Brittle>(&block.material.law);
     for (std::size_t n = 0; law && n < 4 * block.points.size(); ++n) {
-      const std::size_t place = block.place(static_cast<int>(n / 4), static_cast<int>(n % 4));
-      const double left = 1 - block.state_of<materials::Brittle>(place).dissipated * law->width / law->fracture_energy;
+      const std::size_t index = block.index(static_cast<int>(n / 4), static_cast<int>(n % 4));
+      const double left = 1 - block.state_of<materials::Brittle>(index).dissipated * law->width / law->fracture_energy;
       if (left < nearly_open) continue;
-      const double most = materials::CockcroftLatham::largest_principal(block.cells[place].stress);
+      const double most = materials::CockcroftLatham::largest_principal(block.cells->stress_at(index));
       largest = std::max(largest, most / (strengths_[b] * left));
     }
   }
@@ -456,7 +458,7 @@ std::optional<Fracture> Equilibrium::take_fracture() {
 
 double Equilibrium::work_of_jump() const {
   double sum = 0;
-  for (int i = 0; i < body_.owned(); ++i) sum -= 0.5 * left_[i].dot(body_.current(i) - committed_.place(i));
+  for (int i = 0; i < body_.owned(); ++i) sum -= 0.5 * left_[i].dot(body_.current(i) - committed_.position(i));
   return sum;
 }
 
@@ -508,7 +510,7 @@ void Equilibrium::serialize_search(Archive& archive) {
   mirror_forces_before_ = mirror_forces_;
   forces_before_ = forces_;
   outer_ = outer_before_;
-  for (int i = 0; i < body_.owned(); ++i) looked_at_[i] = body_.current(i);
+  for (int i = 0; i < body_.owned(); ++i) positions_of_contact_[i] = body_.current(i);
   committed_.take(body_);
   if (dt_ > 0) constraints_.emplace(held_directions(conditions_, body_, t_, dt_), body_);  // for reactions
 }
@@ -533,7 +535,7 @@ double Equilibrium::external_work() const {
     sum += work_beyond_chords(held, body_.domain.communicator);
   }
   for (int i = 0; i < body_.owned(); ++i) {
-    sum += 0.5 * (outer_before_[i] + outer_[i]).dot(body_.current(i) - committed_.place(i));
+    sum += 0.5 * (outer_before_[i] + outer_[i]).dot(body_.current(i) - committed_.position(i));
   }
   return sum;
 }

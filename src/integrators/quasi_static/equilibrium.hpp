@@ -57,9 +57,9 @@ class Equilibrium {
   // condition is not finite.
   void begin(double t, double dt);
 
-  // Collective, after commit(). Breaks the bonds that are beyond their limit, at the same positions, and lets the
-  // stress of gradual cracks fall, whose damage trials hold. If any, it begins a step without motion of conditions: the
-  // forces that are lost are held at first, and fade.
+  // Collective; after commit(). Breaks the bonds that are beyond their limit and lets the stress of gradual cracks
+  // fall, both at the same positions; trials do neither. If there are any, this begins a load step at constant
+  // conditions, in which the lost forces fade from their full value to zero.
   GaveWay give_way();
   // Collective. The largest stretch of a bond over the one at which it breaks, in the last trial; 0 if none breaks.
   double largest_stretch() const { return breaks_ ? fracture_->largest_stretch(body_) : 0; }
@@ -103,7 +103,7 @@ class Equilibrium {
   Body& body() { return body_; }
   const SeparateParts& parts() const { return parts_; }
   const Constraints& constraints() const { return *constraints_; }
-  Vector start(int i) const { return committed_.place(i); }
+  Vector start(int i) const { return committed_.position(i); }
   const contact::Contact& contact() const { return contact_; }
   contact::Contact take_contact() { return std::move(contact_); }
   std::optional<Fracture> take_fracture();
@@ -120,7 +120,7 @@ class Equilibrium {
   Reactions reactions(int conditions) const;
 
  private:
-  std::vector<Vector> step_way() const;  // displacement increment of the owned points in this load step, m
+  std::vector<Vector> step_displacement() const;  // displacement increment of the owned points in this load step, m
   // `time`: at the end of the step.
   StepReport advance(double dt, double time, bool with_diagnostics) {
     return advance_by_any_step(body_, dt, time, with_diagnostics, fracture_ ? &*fracture_ : nullptr);
@@ -148,7 +148,7 @@ class Equilibrium {
   SeparateParts parts_;
   ToolContact tools_;
   bool breaks_ = false;            // bonds break, and cells soften, between trials
-  std::vector<double> strengths_;  // of gradual cracks by blocks, Pa; in trials laws have none, which holds the damage
+  std::vector<double> strengths_;  // of gradual cracks by blocks, Pa; laws get none in trials, so damage does not grow
   Committed committed_;
   std::optional<Constraints> constraints_;
   double t_ = 0, dt_ = 0;
@@ -160,10 +160,10 @@ class Equilibrium {
   Field inner_;                                 // N, of the body alone
   Field forces_before_;                         // N, of the committed state
   Field outer_, outer_before_;                  // loads and reactions, N; at the start of the step
-  Field left_;                                  // N, that bonds or cells lost at its start; empty without
+  Field left_;                                  // N: lost by bonds or cells at the start of the step; empty if none
   Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors or periods on this rank's points
   std::vector<double> side_forces_;             // N, of pieces through each of domain.periods, on this rank's points
-  std::vector<Vector> looked_at_;               // positions at the last evaluation of contact, m
+  std::vector<Vector> positions_of_contact_;    // positions at the last evaluation of contact, m
   std::vector<PointTangent> tangents_;
   std::vector<Site> directions_;
 };

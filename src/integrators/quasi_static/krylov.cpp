@@ -252,7 +252,7 @@ std::string Krylov::precondition(const BlockRows& rows, const std::vector<Field>
 
 Krylov::Outcome Krylov::solve(const Product& K, const Field& right, Measure measure, double tolerance, int most,
                               Field& x) {
-  constexpr int kept = 200;  // directions before a restart
+  constexpr int restart_length = 200;  // directions before a restart
   const RCP<const Map>& map = implementation_->map;
   const RCP<Operator> product = rcp(new ProductOperator(K, map, implementation_->owned));
   const RCP<Vectors> solution = rcp(new Vectors(map, 1)), wanted = rcp(new Vectors(map, 1));
@@ -264,8 +264,8 @@ Krylov::Outcome Krylov::solve(const Product& K, const Field& right, Measure meas
   problem->setProblem();
   const RCP<Teuchos::ParameterList> options = rcp(new Teuchos::ParameterList);
   options->set("Convergence Tolerance", tolerance);
-  options->set("Num Blocks", std::min(kept, most));
-  options->set("Maximum Restarts", most / kept);
+  options->set("Num Blocks", std::min(restart_length, most));
+  options->set("Maximum Restarts", most / restart_length);
   options->set("Maximum Iterations", most);
   const char* const scaling = by_error ? "Norm of Preconditioned Initial Residual" : "Norm of RHS";
   options->set("Implicit Residual Scaling", scaling);

@@ -21,8 +21,9 @@ constexpr double of_first = 1e-3, coarsest = 3e-2, finest = 1e-4;
 constexpr double of_touch = 1e-2;
 constexpr int most_products = 400;
 
-// Damping: its first value, and the value below which it ends; its factors if the tangent is not positive along the
-// step, if only a short part of the step is downhill, and if the forces decrease quickly or slowly.
+// Damping (over the stiffness of a point) begins at first_damping and ends below least_damping. It is multiplied by
+// where_unstable if the tangent is not positive along the step, by where_short if the line search takes only a short
+// part of the step, and by where_quick or where_slow as the forces decrease quickly or slowly.
 constexpr double first_damping = 1e-2, least_damping = 1e-5;
 constexpr double where_unstable = 10, where_short = 4, where_quick = 0.1, where_slow = 0.4;
 constexpr double short_part = 0.1, long_part = 0.5;  // of a step
@@ -33,8 +34,8 @@ constexpr int most_products_damped = 200;            // more would cost more tha
 // of multigrid do not represent a strut that flows or slides. Below it multigrid is faster (docs/decisions.md).
 constexpr int most_of_multigrid = 200;
 
-// A multigrid hierarchy is kept until systems take this many times as long as just after it was made; factors until
-// they take this many times as long as new factors would.
+// A multigrid hierarchy is renewed once a system takes this many times the products of the first one after it was made;
+// factors are renewed once a system takes this many times the products that new factors are worth.
 constexpr double wear = 1.5;
 
 }  // namespace
@@ -52,7 +53,7 @@ double Newton::mean_spring(const BlockRows& matrix) const {
   return sums[0] / sums[1];
 }
 
-// Stiffness of damping by the body's own stiffness alone: with that of contact it would prevent sliding, too.
+// Damping takes the stiffness of the body alone: with the stiffness of contact it would prevent sliding, too.
 void Newton::renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra) {
   drag_.resize(extra.size());
   for (std::size_t i = 0; i < extra.size(); ++i) {
@@ -69,9 +70,9 @@ void Newton::damp_less(double factor) {
 
 void Newton::damp_more(double factor) { damping_ = std::max(first_damping, factor * damping_); }
 
-void Newton::tell_once(const std::string& trouble) {
-  if (trouble.empty() || told_trouble_) return;
-  told_trouble_ = true;
+void Newton::warn_once(const std::string& trouble) {
+  if (trouble.empty() || has_warned_) return;
+  has_warned_ = true;
   if (observer_.load_steps) observer_.load_steps("WARNING: " + trouble);
 }
 
@@ -87,7 +88,7 @@ void Newton::precondition(const BlockRows& matrix, const std::vector<Tensor>& ex
   if (is_factorized_) {
     return krylov_.precondition_by([this](const Field& right, Field& x) { factor_->solve(right, x); });
   }
-  tell_once(krylov_.precondition(matrix, rigid_motions(body)));
+  warn_once(krylov_.precondition(matrix, rigid_motions(body)));
 }
 
 void Newton::renew_preconditioner() {
@@ -104,7 +105,7 @@ void Newton::renew_preconditioner() {
   spring_ = mean_spring(matrix);
   renew_drag(matrix, extra);
   damping_when_new_ = damping_;
-  preconditioner_due_ = false;
+  preconditioner_pending_ = false;
   products_when_new_ = 0;
 }
 
@@ -121,16 +122,18 @@ Krylov::Outcome Newton::with_another_preconditioner(const std::function<Krylov::
 
 void Newton::serialize(Archive& archive) { archive.number("with_factors", wants_factors_); }
 
-// The step that cancels the forces by the tangent, with `way` along held directions: Π K Π v = Π (r − K way).
-int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) {
+// Solves for the step v + u (m) that cancels the residual r (N) by the tangent K (N/m). u is `remaining`, the rest of
+// the prescribed motion; v is along free directions, to which Π projects: Π K Π v = Π (r − K u). Returns the number of
+// iterations.
+int Newton::correct(const Field& remaining, bool moves, double accuracy, Field& step) {
   equilibrium_.linearize();
   const bool changed = equilibrium_.contact_has_changed();
-  if (preconditioner_due_ || (changed && !is_factorized_) || damping_has_changed()) renew_preconditioner();
+  if (preconditioner_pending_ || (changed && !is_factorized_) || damping_has_changed()) renew_preconditioner();
   const Constraints& held = equilibrium_.constraints();
   Field right = equilibrium_.residual();
   if (moves) {
-    Field pull(way.size());
-    equilibrium_.apply(way, pull);
+    Field pull(remaining.size());
+    equilibrium_.apply(remaining, pull);
     for (std::size_t i = 0; i < right.size(); ++i) right[i] -= pull[i];
     held.remove(right);
   }
@@ -144,7 +147,8 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
     held.remove(out);
     for (std::size_t i = 0; i < in.size(); ++i) out[i] += spring_ * (in[i] - free[i]);
   };
-  // Forces of different size are solved for alike: no stiffness couples the parts, so each has its own unit.
+  // No stiffness couples separate parts of the body. Each part has its own unit of force, so that small forces in one
+  // part are found as accurately as large ones in another.
   const SeparateParts& parts = equilibrium_.parts();
   std::vector<double> units(parts.pieces(), 1);
   if (parts.several()) units = parts.of_parts(parts.norms(right, equilibrium_.body().domain.communicator));
@@ -159,9 +163,10 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
   });
   if (!outcome.converged) damp_more(where_unstable);
   held.remove(step);
-  for (std::size_t i = 0; i < step.size(); ++i) step[i] = units[parts.of(static_cast<int>(i))] * step[i] + way[i];
+  for (std::size_t i = 0; i < step.size(); ++i) step[i] = units[parts.of(static_cast<int>(i))] * step[i] + remaining[i];
   if (products_when_new_ == 0) products_when_new_ = std::max(10, outcome.iterations);
-  preconditioner_due_ = outcome.iterations > wear * (is_factorized_ ? factor_->products_worth() : products_when_new_);
+  preconditioner_pending_ =
+      outcome.iterations > wear * (is_factorized_ ? factor_->products_worth() : products_when_new_);
   return outcome.iterations;
 }
 
@@ -192,7 +197,7 @@ Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
   return stop.left;
 }
 
-void Newton::tell(const EquilibriumSearch& search, int products) const {
+void Newton::report(const EquilibriumSearch& search, int products) const {
   if (!observer_.iterations) return;
   char line[160];
   std::snprintf(line, sizeof line, "  iteration %2d  %3d products  %.3e N left of %.3e N, damping %.0e%s",
@@ -204,8 +209,8 @@ void Newton::tell(const EquilibriumSearch& search, int products) const {
 EquilibriumSearch Newton::solve(const Tolerance& tolerance) {
   EquilibriumSearch search;
   search.left = equilibrium_.evaluate();
-  Field way = equilibrium_.constraints().way_left(equilibrium_.body()), step;
-  bool moves = is_a_motion(way, equilibrium_.body());
+  Field remaining = equilibrium_.constraints().remaining_displacement(equilibrium_.body()), step;
+  bool moves = is_a_motion(remaining, equilibrium_.body());
   double before = search.left.norm;
   damping_ = 0, damped_ = 0;
   for (; search.iterations < tolerance.most_iterations && !search.left.failed; ++search.iterations) {
@@ -215,13 +220,13 @@ EquilibriumSearch Newton::solve(const Tolerance& tolerance) {
     const double enough = 0.3 * tolerance.relative * search.left.scale / search.left.norm;
     const double accuracy = moves ? of_first : std::clamp(std::max(0.5 * gain * gain, enough), finest, coarsest);
     before = search.left.norm;
-    const int products = correct(way, moves, accuracy, step);
+    const int products = correct(remaining, moves, accuracy, step);
     search.evaluations += products;
     search.left = advance(search.left, step, moves);
-    tell(search, products);
+    report(search, products);
     search.interrupted = equilibrium_.body().domain.communicator.any(observer_.stop_requested());
     if (search.interrupted) return search;
-    std::fill(way.begin(), way.end(), Vector::Zero());
+    std::fill(remaining.begin(), remaining.end(), Vector::Zero());
     moves = false;
   }
   search.converged = is_balanced(search.left, tolerance);

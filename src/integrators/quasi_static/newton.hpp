@@ -17,7 +17,7 @@ class Newton {
   Newton(Equilibrium& equilibrium, const Observer& observer);
 
   // Makes the next search independent of earlier ones.
-  void begin_anew() { preconditioner_due_ = true; }
+  void begin_anew() { preconditioner_pending_ = true; }
 
   void serialize(Archive& archive);  // state of the earlier systems that a resumed run needs
 
@@ -25,9 +25,9 @@ class Newton {
   EquilibriumSearch solve(const Tolerance& tolerance);
 
  private:
-  int correct(const Field& way, bool moves, double accuracy, Field& step);
+  int correct(const Field& remaining, bool moves, double accuracy, Field& step);
   Imbalance advance(const Imbalance& now, const Field& step, bool moves);
-  void tell_once(const std::string& trouble);
+  void warn_once(const std::string& trouble);
   bool damping_has_changed() const;
   Krylov::Outcome with_another_preconditioner(const std::function<Krylov::Outcome()>& solve);
   void renew_preconditioner();
@@ -36,18 +36,18 @@ class Newton {
   void renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra);
   void damp_less(double factor);
   void damp_more(double factor);
-  void tell(const EquilibriumSearch& search, int products) const;
+  void report(const EquilibriumSearch& search, int products) const;
 
   Equilibrium& equilibrium_;
   const Observer& observer_;
   Krylov krylov_;
   std::optional<TangentFactor> factor_;  // made once multigrid takes too many products (wants_factors_)
-  double spring_ = 1;                    // N/m, for held directions in the linear systems: as stiff as others
+  double spring_ = 1;                    // N/m, diagonal of the linear systems in held directions: as stiff as others
   int products_when_new_ = 0;
-  bool preconditioner_due_ = true, wants_factors_ = false, is_factorized_ = false;
-  bool told_trouble_ = false;
+  bool preconditioner_pending_ = true, wants_factors_ = false, is_factorized_ = false;
+  bool has_warned_ = false;
 
-  // Damping: a spring damping_ · drag_ from each point to its start of the iteration; it does not enter the residual.
+  // Damping adds a spring of stiffness damping_ · drag_ (N/m) to each point in the linear systems, not in the residual.
   double damping_ = 0, damping_when_new_ = 0;
   std::vector<double> drag_;  // N/m: stiffness of a point by its near neighbors
   int damped_ = 0;            // iterations with damping in this search

@@ -202,7 +202,7 @@ void QuasiStatic::commit(EquilibriumSearch search) {
   ++steps_;
   const double left = final_time_ - time_ - dt_;
   time_ = left > round_off * longest_ ? time_ + dt_ : final_time_;
-  tell(search, broken);
+  report(search, broken);
   if (!control_.with_tangent || was_easy) dt_ = std::min(growth * dt_, longest_);
 }
 
@@ -254,7 +254,7 @@ void QuasiStatic::raise_no_equilibrium(std::int64_t broken) {
   raise_together(equilibrium_.body().domain.communicator, where.empty() ? "" : text.str() + where);
 }
 
-void QuasiStatic::tell(const EquilibriumSearch& search, std::int64_t broken) const {
+void QuasiStatic::report(const EquilibriumSearch& search, std::int64_t broken) const {
   char line[200];
   const int length = std::snprintf(
       line, sizeof line, "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, %.1e of the load left",

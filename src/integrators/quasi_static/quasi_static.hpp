@@ -61,7 +61,7 @@ class QuasiStatic {
   void commit(EquilibriumSearch search);
   std::int64_t settle(EquilibriumSearch& search);
   void raise_no_equilibrium(std::int64_t broken);
-  void tell(const EquilibriumSearch& search, std::int64_t broken) const;
+  void report(const EquilibriumSearch& search, std::int64_t broken) const;
   void serialize_steps(Archive& archive);
 
   Observer observer_;

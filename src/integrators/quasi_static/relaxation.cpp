@@ -55,7 +55,7 @@ EquilibriumSearch Relaxation::solve(const Tolerance& tolerance, int most) {
   const Constraints& held = equilibrium_.constraints();
   EquilibriumSearch search;
   search.left = equilibrium_.evaluate();
-  search.converged = is_balanced(search.left, tolerance) && !is_a_motion(held.way_left(body), body);
+  search.converged = is_balanced(search.left, tolerance) && !is_a_motion(held.remaining_displacement(body), body);
   if (search.converged) return search;
   Field velocity(body.owned(), Vector::Zero()), before;
   double damping = 0;
@@ -65,11 +65,11 @@ EquilibriumSearch Relaxation::solve(const Tolerance& tolerance, int most) {
       search.interrupted = ranks.any(observer_.stop_requested());
       if (search.interrupted) return search;
     }
-    const Field way = n < ramp ? held.way_left(body) : Field(body.owned(), Vector::Zero());
+    const Field remaining = n < ramp ? held.remaining_displacement(body) : Field(body.owned(), Vector::Zero());
     for (int i = 0; i < body.owned(); ++i) {
       const Vector push = equilibrium_.residual()[i] / masses_[i];
       velocity[i] = ((2 - damping) * velocity[i] + 2 * push) / (2 + damping);
-      const Vector move = velocity[i] + way[i] / std::max(1, ramp - n);
+      const Vector move = velocity[i] + remaining[i] / std::max(1, ramp - n);
       body.domain.sites[i].current.head<3>() += move.array();
     }
     before = equilibrium_.residual();

@@ -19,7 +19,7 @@ constexpr double across = 0.1;  // of the spring's stiffness along its bond
 
 // Lower limit of the shear modulus of flowing material over its elastic one; the bulk modulus stays. Limits of 0.1 to
 // 0.3 need the fewest iterations for a bar in flow.
-constexpr double smallest_share = 0.1;
+constexpr double smallest_fraction = 0.1;
 
 // Grounding stiffness, relative to a point's own springs, for parts without any constraint (a body that slides between
 // plates, a loose piece); without it the coarsest grid and the factors are singular.
@@ -68,9 +68,9 @@ std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, 
   for (const MaterialBlock& block : body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const int i = block.points[k];
-      const double elastic = block.moduli(block.place(k, 0)).shear;
+      const double elastic = block.moduli(block.index(k, 0)).shear;
       const double now = block.is_ordinary() ? elastic : shear_modulus(tangents[i]);
-      ends[i].stiffness = 15 * std::max(now, smallest_share * elastic) / std::max(spread(body, ends, i), 1e-300);
+      ends[i].stiffness = 15 * std::max(now, smallest_fraction * elastic) / std::max(spread(body, ends, i), 1e-300);
     }
   }
   halo.exchange(ends);

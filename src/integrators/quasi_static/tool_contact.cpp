@@ -14,7 +14,7 @@ namespace {
 constexpr double penalty_factor = 1;
 
 // Tangential penalty, relative to ε.
-constexpr double tangential_share = 0.5;
+constexpr double tangential_fraction = 0.5;
 
 // Rounds of the multipliers end when the penetration is this small, in spacings, and in parts of the compression of a
 // cell by the largest pressure: a body that is strained by 1e-4 is pressed by less than 1e-4 of a spacing. The pressure
@@ -47,7 +47,7 @@ void ToolContact::begin(const Body& body, double t, double dt) {
       // By the stiffest integration point: one that has failed has no stiffness.
       for (int q = 0; q < block.points_per_cell(); ++q) {
         double& modulus = moduli[block.points[k]];
-        modulus = std::max(modulus, block.moduli(block.place(k, q)).longitudinal());
+        modulus = std::max(modulus, block.moduli(block.index(k, q)).longitudinal());
       }
     }
   }
@@ -66,8 +66,8 @@ void ToolContact::add_forces(const Body& body, Field& forces) {
     const RigidTool& tool = tools_[contact.tool];
     const Vector image = tool.nearest_image(body.domain, place - offsets_[contact.tool]);
     const Surface at = tool.met_by(contact.point, tool.shape, image);
-    const Vector way = place - contact.start - travels_[contact.tool];
-    press(at, way - way.dot(at.normal) * at.normal, contact);
+    const Vector displacement = place - contact.start - travels_[contact.tool];
+    press(at, displacement - displacement.dot(at.normal) * at.normal, contact);
     forces[contact.point] += contact.now.force;
   }
 }
@@ -84,7 +84,7 @@ void ToolContact::press(const Surface& at, const Vector& sliding, ContactPoint& 
   contact.stiffness = e * n * n.transpose() - pressure * at.curvature;
   const double friction = tools_[contact.tool].friction;
   if (friction == 0 || pressure == 0) return;
-  const double e_t = tangential_share * e;
+  const double e_t = tangential_fraction * e;
   const Tensor along = Tensor::Identity() - n * n.transpose();
   const Vector trial = along * contact.tangential - e_t * sliding;
   const double length = trial.norm(), most = friction * pressure;
@@ -160,8 +160,8 @@ void ToolContact::go_back() {
 
 void ToolContact::add_reactions(std::vector<Vector>& by_condition) const {
   for (const ContactPoint& contact : contact_points_) {
-    const int place = tools_[contact.tool].reaction_place;
-    if (static_cast<std::size_t>(place) < by_condition.size()) by_condition[place] += contact.now.force;
+    const int index = tools_[contact.tool].reaction_index;
+    if (static_cast<std::size_t>(index) < by_condition.size()) by_condition[index] += contact.now.force;
   }
 }
 

@@ -16,7 +16,7 @@ inline std::string name_of_ids(std::size_t group) { return "g" + std::to_string(
 inline std::string name_of(std::size_t group, const std::string& column) {
   return "g" + std::to_string(group) + "_" + column;
 }
-inline std::string name_of_share(const std::string& name) { return "share_" + name; }
+inline std::string name_of_rank_sum(const std::string& name) { return "share_" + name; }
 inline std::string name_of_number(const std::string& name) { return "number_" + name; }
 // The checksums: of the numbers and the deck, then one for each list, in the order of the snapshot. This list is
 // defined first: its name begins with checkpoint_mark, which identifies a file that a killed run has only begun.
@@ -37,7 +37,7 @@ inline double sum_of_deck(const std::string& deck) {
 
 inline std::vector<std::string> lists_of(const Snapshot& snapshot) {
   std::vector<std::string> lists;
-  for (const auto& [name, value] : snapshot.shares) lists.push_back(name_of_share(name));
+  for (const auto& [name, value] : snapshot.rank_sums) lists.push_back(name_of_rank_sum(name));
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
     lists.push_back(name_of_ids(g));
     for (const Snapshot::Column& column : snapshot.groups[g].columns) lists.push_back(name_of(g, column.name));

@@ -56,12 +56,12 @@ std::vector<std::string> lines_of(const std::string& text) {
 // Checks that the file has all parts of the snapshot. `counts`: number of points of each group over all ranks.
 void compare(const fs::path& path, const NetcdfLists& file, const Snapshot& snapshot,
              const std::vector<std::int64_t>& counts) {
-  int lists = 1 + static_cast<int>(snapshot.shares.size());  // the list of checksums counts, too
+  int lists = 1 + static_cast<int>(snapshot.rank_sums.size());  // the list of checksums counts, too
   for (const auto& [name, value] : snapshot.numbers) {
     if (!file.has_number(name_of_number(name))) differs(path, "it has no number '" + name + "'");
   }
-  for (const auto& [name, value] : snapshot.shares) {
-    if (file.size(name_of_share(name)) == 0) differs(path, "it has no number '" + name + "'");
+  for (const auto& [name, value] : snapshot.rank_sums) {
+    if (file.size(name_of_rank_sum(name)) == 0) differs(path, "it has no number '" + name + "'");
   }
   const std::vector<std::string> groups = lines_of(file.text(name_of_groups));
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
@@ -149,8 +149,8 @@ class PartsOfFile {
     for (const auto& [name, value] : snapshot.numbers) {
       if (takes(name) && !file_.has_number(name_of_number(name))) missing.push_back(name);
     }
-    for (const auto& [name, value] : snapshot.shares) {
-      if (takes(name) && !has<double>(name_of_share(name))) missing.push_back(name);
+    for (const auto& [name, value] : snapshot.rank_sums) {
+      if (takes(name) && !has<double>(name_of_rank_sum(name))) missing.push_back(name);
     }
     std::vector<int> groups;
     for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
@@ -181,8 +181,8 @@ class PartsOfFile {
       const std::string begin = name_of(g, "");
       if (list.starts_with(begin)) return "'" + list.substr(begin.size()) + "' of " + groups_[g];
     }
-    const std::string share = name_of_share("");
-    return "'" + (list.starts_with(share) ? list.substr(share.size()) : list) + "'";
+    const std::string prefix = name_of_rank_sum("");
+    return "'" + (list.starts_with(prefix) ? list.substr(prefix.size()) : list) + "'";
   }
   [[noreturn]] void damaged(const std::string& what) const {
     throw Error(path_.string() + ": is damaged: the check sum of " + what + " is not that of its contents");
@@ -234,8 +234,8 @@ double number(const Communicator& communicator, const std::optional<NetcdfLists>
   return from_root(communicator, [&] { return std::vector<double>{file->number(name_of_number(name))}; })[0];
 }
 
-double share(const Communicator& communicator, const std::optional<NetcdfLists>& file, const std::string& name) {
-  const std::vector<double> of_ranks = from_root(communicator, [&] { return file->reals(name_of_share(name)); });
+double rank_sum(const Communicator& communicator, const std::optional<NetcdfLists>& file, const std::string& name) {
+  const std::vector<double> of_ranks = from_root(communicator, [&] { return file->reals(name_of_rank_sum(name)); });
   if (of_ranks.size() == static_cast<std::size_t>(communicator.size())) return of_ranks[communicator.rank()];
   return communicator.rank() == 0 ? std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0) : 0;
 }
@@ -265,8 +265,8 @@ void fill(const Communicator& communicator, const fs::path& path, const std::opt
   for (auto& [name, value] : snapshot.numbers) {
     if (wanted(name)) value = number(communicator, file, name);
   }
-  for (auto& [name, value] : snapshot.shares) {
-    if (wanted(name)) value = share(communicator, file, name);
+  for (auto& [name, value] : snapshot.rank_sums) {
+    if (wanted(name)) value = rank_sum(communicator, file, name);
   }
   bool known = true;
   for (std::size_t g = 0; g < groups.size(); ++g) {

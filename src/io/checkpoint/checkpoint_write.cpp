@@ -63,7 +63,8 @@ void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector
   file.put(name_of_groups, lines(snapshot.groups, [](const Snapshot::Group& one) { return one.name; }));
   file.put(name_of_lists, lines(lists, [](const std::string& one) { return one; }));
   for (const auto& [name, value] : snapshot.numbers) file.put(name_of_number(name), value);
-  for (const auto& [name, value] : snapshot.shares) file.define(name_of_share(name), NetcdfLists::Of::reals, ranks);
+  for (const auto& [name, value] : snapshot.rank_sums)
+    file.define(name_of_rank_sum(name), NetcdfLists::Of::reals, ranks);
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
     file.define(name_of_ids(g), NetcdfLists::Of::integers, sizes[g]);
     for (const Snapshot::Column& column : snapshot.groups[g].columns) {
@@ -98,7 +99,7 @@ void fill(std::optional<NetcdfLists>& file, const Communicator& communicator, co
     });
     sums.push_back(sum.value());
   };
-  for (const auto& [name, value] : snapshot.shares) put(name_of_share(name), std::span(&value, 1));
+  for (const auto& [name, value] : snapshot.rank_sums) put(name_of_rank_sum(name), std::span(&value, 1));
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
     const Slices slices(communicator, snapshot.groups[g].ids);
     put(name_of_ids(g), std::span(slices.ids()));

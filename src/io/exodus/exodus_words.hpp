@@ -54,7 +54,7 @@ template <class Item, class Named>
 std::string said_twice(const std::string& kind, const std::vector<Item>& items, const std::vector<Named>& named) {
   std::map<std::int64_t, std::size_t> numbers;
   std::map<std::string, std::size_t> names;
-  const auto told = [&](std::size_t k) {
+  const auto described = [&](std::size_t k) {
     return "'" + named[k].name + "' (number " + std::to_string(items[k].id) + ", at place " + std::to_string(k + 1) +
            ")";
   };
@@ -63,8 +63,8 @@ std::string said_twice(const std::string& kind, const std::vector<Item>& items, 
     const auto [name, is_new_name] = names.emplace(named[k].name, k);
     if (is_new_number && is_new_name) continue;
     const std::size_t first = is_new_number ? name->second : number->second;
-    return kind + "s " + told(first) + " and " + told(k) + " have the same " + (is_new_number ? "name" : "number") +
-           "; expected one of its own for each " + kind;
+    return kind + "s " + described(first) + " and " + described(k) + " have the same " +
+           (is_new_number ? "name" : "number") + "; expected one of its own for each " + kind;
   }
   return "";
 }

@@ -16,7 +16,7 @@ namespace strut::io {
 namespace {
 
 // Sums of the elements around a node, in the order of the file.
-struct Share {
+struct NodeSum {
   double volume = 0;  // m³, the node's parts of the elements
   double around = 0;  // m³, of the whole elements
   int elements = 0;
@@ -24,18 +24,18 @@ struct Share {
   std::vector<std::pair<int, double>> taken;  // m³, from elements of other blocks
 };
 
-class Shares {
+class NodeSums {
  public:
-  Shares(const MeshSlice& slice, const std::string& file)
-      : slice_(slice), mesh_(slice.mesh), file_(file), shares_(slice.nodes.size()) {}
+  NodeSums(const MeshSlice& slice, const std::string& file)
+      : slice_(slice), mesh_(slice.mesh), file_(file), sums_(slice.nodes.size()) {}
 
-  std::vector<Share> gatherv() {
+  std::vector<NodeSum> gatherv() {
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
       const Mesh::Block& block = mesh_.blocks[b];
       if (block.type == "HEX8") add_block<8>(static_cast<int>(b), hexahedron_parts);
       if (block.type == "TET4") add_block<4>(static_cast<int>(b), tetrahedron_parts);
     }
-    return std::move(shares_);
+    return std::move(sums_);
   }
 
  private:
@@ -50,12 +50,12 @@ class Shares {
       for (const double part : parts) volume += part;
       check_volume(volume, block, slice_.elements[elements_++], file_);
       for (std::size_t n = 0; n < size; ++n) {
-        Share& share = shares_[block.nodes[e * size + n]];
-        share.volume += parts[n];
-        share.around += cells * volume;
-        ++share.elements;
-        if (share.block < 0) share.block = index;
-        if (share.block != index) share.taken.emplace_back(index, parts[n]);
+        NodeSum& sum = sums_[block.nodes[e * size + n]];
+        sum.volume += parts[n];
+        sum.around += cells * volume;
+        ++sum.elements;
+        if (sum.block < 0) sum.block = index;
+        if (sum.block != index) sum.taken.emplace_back(index, parts[n]);
       }
     }
   }
@@ -63,7 +63,7 @@ class Shares {
   const MeshSlice& slice_;
   const Mesh& mesh_;
   const std::string& file_;
-  std::vector<Share> shares_;
+  std::vector<NodeSum> sums_;
   std::size_t elements_ = 0;  // processed so far
 };
 
@@ -166,7 +166,7 @@ PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const s
                            const std::string& file, bool with_cells, const std::vector<Mirror>& planes,
                            FacesOnPlanes* apart) {
   check_corners(slice, file);
-  const std::vector<Share> shares = Shares(slice, file).gatherv();
+  const std::vector<NodeSum> sums = NodeSums(slice, file).gatherv();
   std::optional<Cells> cells;
   if (with_cells) cells.emplace(slice, planes);
   PointCloud cloud;
@@ -174,24 +174,24 @@ PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const s
   for (const MeshLayout::Block& block : slice.layout.blocks) cloud.block_names.push_back(block.name);
   for (const MeshLayout::NodeSet& set : slice.layout.node_sets) cloud.set_names.push_back(set.name);
   cloud.taken_volumes.assign(cloud.block_names.size() * cloud.block_names.size(), 0);
-  for (std::size_t n = 0; n < shares.size(); ++n) {
+  for (std::size_t n = 0; n < sums.size(); ++n) {
     if (slice.nodes[n] < own.begin || slice.nodes[n] >= own.end) continue;
-    const Share& share = shares[n];
+    const NodeSum& sum = sums[n];
     const std::int64_t number = numbers[static_cast<std::size_t>(slice.nodes[n] - own.begin)];
-    check_parts(share.volume, number, file);
+    check_parts(sum.volume, number, file);
     if (with_cells) {
       check_parts(cells->volume(n), number, file);
       cells->give(n, cloud, apart);
     }
-    for (const auto& [block, volume] : share.taken) {
-      cloud.taken_volumes[share.block * cloud.block_names.size() + block] += volume;
+    for (const auto& [block, volume] : sum.taken) {
+      cloud.taken_volumes[sum.block * cloud.block_names.size() + block] += volume;
     }
     cloud.ids.push_back(slice.nodes[n]);
     cloud.element_ids.push_back(number);
     cloud.positions.push_back(slice.mesh.nodes[n]);
-    cloud.volumes.push_back(share.volume);
-    cloud.spacings.push_back(std::cbrt(share.around / share.elements));
-    cloud.blocks.push_back(share.block);
+    cloud.volumes.push_back(sum.volume);
+    cloud.spacings.push_back(std::cbrt(sum.around / sum.elements));
+    cloud.blocks.push_back(sum.block);
     cloud.sets.push_back(slice.sets[n]);
   }
   return cloud;

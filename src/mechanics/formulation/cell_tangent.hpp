@@ -32,9 +32,9 @@ class CellTangent {
     if (shared_) shared_->share_gradients(dF);
     CellTensors dP;
     for (int q = 0; q < 4; ++q) {
-      const std::size_t place = block_.place(k_, q);
-      dP[q] = tangents_ ? (*tangents_)[body_.owned() + block_.first_integration_point + place].times(dF[q])
-                        : elastic_change(block_.cells[place], block_.moduli(place), dF[q]);
+      const std::size_t index = block_.index(k_, q);
+      dP[q] = tangents_ ? (*tangents_)[body_.owned() + block_.first_integration_point + index].times(dF[q])
+                        : elastic_change(block_.cells[index], block_.moduli(index), dF[q]);
     }
     if (shared_) shared_->share_stresses(dP);
     return dP;

@@ -85,13 +85,13 @@ class ConsistencyCorrection {
   void solve();
 
   // The trend of a point, as its neighbors need it: c, C, Q, and V² of the point; zero for points that carry no stress.
-  struct Share {
+  struct TrendRecord {
     double c[3], C[9], Q[18], weight;
 
-    friend void reflect(const Reflection& by, Share& share) {
-      turn(by, share.c);
-      reflect_rows(by, share.C);  // C is stored by columns; the reflection is the same
-      reflect_second(by, share.Q);
+    friend void reflect(const Reflection& by, TrendRecord& record) {
+      turn(by, record.c);
+      reflect_rows(by, record.C);  // C is stored by columns; the reflection is the same
+      reflect_second(by, record.Q);
     }
   };
 
@@ -101,7 +101,7 @@ class ConsistencyCorrection {
   std::vector<Vector> missing_;    // −r, of owned points, m²
   std::vector<Matrix10> moments_;  // inverse moments of (ξ, q, 1) over the family and the point, of owned points
   std::vector<double> diagonal_, ridge_;  // a bound of K's diagonal; the regularization, m⁹
-  std::vector<Share> shares_;             // of owned points and ghosts
+  std::vector<TrendRecord> records_;      // of owned points and ghosts
   std::vector<Vector> image_;             // K μ, of owned points
 };
 
@@ -133,21 +133,21 @@ void ConsistencyCorrection::set_missing() {
 
 void ConsistencyCorrection::set_operator() {
   moments_.assign(body_.owned(), Matrix10::Zero());
-  shares_.assign(body_.domain.sites.size(), Share{});
+  records_.assign(body_.domain.sites.size(), TrendRecord{});
   diagonal_.assign(body_.owned(), 0), ridge_.assign(body_.owned(), 0);
   for (const int i : points_) {
     const QuadraticFit fit = fits_[i];
     if (!fit.carries_stress()) continue;
     const double volume = body_.domain.volume(i);
     moments_[i] = inverse_moments(body_, i);
-    shares_[i].weight = volume * volume;
+    records_[i].weight = volume * volume;
   }
-  halo().exchange(shares_);
+  halo().exchange(records_);
   for (const int i : points_) {
     const double volume = body_.domain.volume(i);
-    double sum = shares_[i].weight;
+    double sum = records_[i].weight;
     over_family(body_, i,
-                [&](int j, double w, const Vector&) { sum += shares_[j].weight * w / body_.domain.volume(j); });
+                [&](int j, double w, const Vector&) { sum += records_[j].weight * w / body_.domain.volume(j); });
     diagonal_[i] = volume * sum;
     ridge_[i] = regularization * inner_diagonal * std::pow(body_.domain.cloud.spacings[i], 9);
   }
@@ -159,16 +159,16 @@ void ConsistencyCorrection::apply_operator() {
     const int i = points_[p];
     if (!carries_stress(i)) return;
     const Trend trend = trend_of(i);
-    Eigen::Map<Vector>{shares_[i].c} = trend.c;
-    Eigen::Map<Tensor>{shares_[i].C} = trend.C;
-    Eigen::Map<RowsOfSix>{shares_[i].Q} = trend.Q;
+    Eigen::Map<Vector>{records_[i].c} = trend.c;
+    Eigen::Map<Tensor>{records_[i].C} = trend.C;
+    Eigen::Map<RowsOfSix>{records_[i].Q} = trend.Q;
   });
-  halo().exchange(shares_);
+  halo().exchange(records_);
   for_each_point(0, count(), [&](int p) {
     const int i = points_[p];
     const Vector mu = fits_.multipliers_[i].head<3>().matrix();
     const auto left = [&](int j, const Vector& xi) -> Vector {
-      const Share& there = shares_[j];
+      const TrendRecord& there = records_[j];
       const std::array<double, 6> q = bonds::squares(bonds::Vector3<double>{{xi[0], xi[1], xi[2]}});
       return there.weight *
              (mu - Eigen::Map<const Vector>(there.c) - Eigen::Map<const Tensor>(there.C) * xi -

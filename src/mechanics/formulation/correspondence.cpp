@@ -15,11 +15,12 @@ LaneSymmetric shape_inverses(const LaneGroup& g, const Body& body) {
 }
 
 // A = P K⁻¹ − C F, times the fraction of the step.
-LaneTensor force_states(const Deformed& now, const Lanes& C, const LaneSymmetric& shape_inverse, const Lanes& share) {
+LaneTensor force_states(const Deformed& now, const Lanes& C, const LaneSymmetric& shape_inverse,
+                        const Lanes& step_fraction) {
   LaneTensor A =
       small::product(piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J), small::full(shape_inverse));
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) A.c[i][j] = share * (A.c[i][j] - C * now.F.c[i][j]);
+    for (int j = 0; j < 3; ++j) A.c[i][j] = step_fraction * (A.c[i][j] - C * now.F.c[i][j]);
   }
   return A;
 }
@@ -66,7 +67,8 @@ struct Update {
     }
     drop_forces(g, l);
     failed = 1;
-    if (block().material.damage) store_gradient(i, body().points[i].stabilization, body().share(i, law.pass.level));
+    if (block().material.damage)
+      store_gradient(i, body().points[i].stabilization, body().step_fraction(i, law.pass.level));
   }
 
   // A point with broken bonds may be crushed between others: it then carries no stress, which is no failure.
@@ -79,20 +81,20 @@ struct Update {
     const int i = g.i[l];
     body().force_states.tensors[i] = bonds::force_state(Tensor::Zero(), 0);
     body().force_density[i].setZero();
-    store_gradient(i, 0, body().share(i, law.pass.level));
+    store_gradient(i, 0, body().step_fraction(i, law.pass.level));
   }
 
   // Stores what the springs on both ends' gradients read.
-  void store_gradient(int i, double C, double share) const {
+  void store_gradient(int i, double C, double step_fraction) const {
     if (!with_gradients) return;
     body().force_states.gradients[i] =
-        bonds::gradient_state(body().points[i].deformation_gradient, C, share, block().material.stabilization);
+        bonds::gradient_state(body().points[i].deformation_gradient, C, step_fraction, block().material.stabilization);
   }
 
-  void store_point(int i, int l, const Deformed& now, const LaneTensor& A, double C, double share) const {
+  void store_point(int i, int l, const Deformed& now, const LaneTensor& A, double C, double step_fraction) const {
     store(i, l, now);
     body().force_states.tensors[i] = bonds::force_state(at(A, l), C);
-    store_gradient(i, body().points[i].stabilization, share);
+    store_gradient(i, body().points[i].stabilization, step_fraction);
   }
 
   LaneTensor deformation_gradient(const LaneGroup& g, const LaneTensor& N, const LaneSymmetric& shape_inverse,
@@ -116,17 +118,18 @@ struct Update {
     const Lanes trace = shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2];
     const Lanes carries = (trace > 0).select(Lanes::Constant(1), Lanes::Zero());
     const LaneTensor F = deformation_gradient(group, N, shape_inverse, carries);
-    const Lanes share = shares(body(), group, law.pass.level);
-    Deformed now = law.deformed(group, g.numbers, F, share, carries);
-    law.set_stress(g, share, now);
+    const Lanes step_fraction = step_fractions(body(), group, law.pass.level);
+    Deformed now = law.deformed(group, g.numbers, F, step_fraction, carries);
+    law.set_stress(g, step_fraction, now);
     law.template count_expansion<1>(group, {&now});
     state.give_back(*block().state, group.k, group.count);
-    const Lanes C = lanes_of([&](int l) { return block().own_springs_of(*g.numbers.points[l]); }), shared_C = share * C;
-    const LaneTensor A = force_states(now, C, shape_inverse, share);
+    const Lanes C = lanes_of([&](int l) { return block().own_springs_of(*g.numbers.points[l]); }),
+                shared_C = step_fraction * C;
+    const LaneTensor A = force_states(now, C, shape_inverse, step_fraction);
     const LaneVector own = bonds::own_force(A, shared_C, first_moments(group, body().first_moment), pull);
     const Lanes per_density =
         lanes_of([&](int l) { return body().domain.volume(group.i[l]) / body().density[group.i[l]]; });
-    const Lanes bound2 = share * share * per_density * steepened_modulus(now) * trace;
+    const Lanes bound2 = step_fraction * step_fraction * per_density * steepened_modulus(now) * trace;
     double fastest = 0;
     for (int l = 0; l < group.count; ++l) {
       if (!(now.stiffness[l] > 0)) {  // the point has failed
@@ -138,7 +141,7 @@ struct Update {
         drop_forces(group, l);
         continue;
       }
-      store_point(group.i[l], l, now, A, shared_C[l], share[l]);
+      store_point(group.i[l], l, now, A, shared_C[l], step_fraction[l]);
       body().force_density[group.i[l]] = at(own, l);
       fastest = std::max(fastest, bound2[l]);
     }

@@ -11,7 +11,7 @@ bool has_flowed(const MaterialBlock& block, int k) {
   const auto at_any_place = [&]<class L>(const L& law) {
     bool any = false;
     if constexpr (materials::tells_flow<L>) {
-      for (int q = 0; q < 4 && !any; ++q) any = law.has_flowed(block.state_of<L>(block.place(k, q)));
+      for (int q = 0; q < 4 && !any; ++q) any = law.has_flowed(block.state_of<L>(block.index(k, q)));
     }
     return any;
   };
@@ -26,11 +26,11 @@ bool begin_flow(Body& body, MaterialBlock& block, int k) {
   block.flowed[k] = 1;
   body.fits->refit_in_flow(body, i);
   for (int q = 0; q < 4; ++q) {
-    const std::size_t place = block.place(k, q);
-    MaterialPoint point = block.cells[place];
+    const std::size_t index = block.index(k, q);
+    MaterialPoint point = block.cells[index];
     point.deformation_gradient = body.fits->gradient_at(body, i, q, [&](int j) { return body.domain.current(j); });
     point.rotation = Rotation(polar_rotation(point.deformation_gradient));
-    block.cells->set(place, point);
+    block.cells->set(index, point);
   }
   return true;
 }

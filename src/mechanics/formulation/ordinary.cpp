@@ -18,8 +18,8 @@ Lanes expansions(const Body& body, const LaneGroup& group) {
   return lanes_of([&](int l) { return body.expansion[group.i[l]].now; });
 }
 
-// Moves the force state and the dilatation to those of the extensions e − ε |ξ|, and counts the work of the expansion:
-// ∂W/∂ε = −θ [(3K − 5μ) s + 5μ], s the part of m that intact bonds hold.
+// Corrects force state and dilatation for the thermal strain ε: extensions become e − ε |ξ|. Counts the work of the
+// expansion, ∂W/∂ε = −θ [(3K − 5μ) s + 5μ], s the fraction of m in intact bonds.
 template <class Weight>
 __attribute__((noinline)) void expand(Body& body, MaterialBlock& block, Weight weight, const LaneGroup& group) {
   const auto moduli = materials::moduli_of(block.material.law);

@@ -49,7 +49,7 @@ class CellsOfGroup {
   using Places = std::array<int, LaneGroup::width>;
   static Places places_of(const MaterialBlock& block, const LaneGroup& group) {
     Places places;
-    for (int l = 0; l < LaneGroup::width; ++l) places[l] = static_cast<int>(block.place(group.k[l], 0));
+    for (int l = 0; l < LaneGroup::width; ++l) places[l] = static_cast<int>(block.index(group.k[l], 0));
     return places;
   }
 
@@ -78,7 +78,7 @@ struct Update {
   double advance(const LaneGroup& group) const {
     QuadraticCells cells(group, *body().fits, body().domain.sites);
     cells.take(moments(body(), group, after(group)));
-    const Lanes share = shares(body(), group, law.pass.level);
+    const Lanes step_fraction = step_fractions(body(), group, law.pass.level);
     const Lanes carries = small::where_positive(cells.steepness(), Lanes::Ones(), Lanes::Zero());
     const Lanes has_flowed = flowed(group);
     const CellsOfGroup<L> at(block(), group);
@@ -86,11 +86,11 @@ struct Update {
     for (int q = 0; q < 4; ++q) {
       LaneTensor F = cells.gradient_at(q);
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1 - carries;  // cells without stress stay undeformed
-      now[q] = law.deformed(group, at.numbers(q), F, share, carries);
+      now[q] = law.deformed(group, at.numbers(q), F, step_fraction, carries);
     }
     const std::array<Lanes, 4> J{now[0].J, now[1].J, now[2].J, now[3].J};
     share_traces(J, {&now[0].rates, &now[1].rates, &now[2].rates, &now[3].rates}, has_flowed);
-    for (int q = 0; q < 4; ++q) law.set_stress(at.points(q), share, now[q]);
+    for (int q = 0; q < 4; ++q) law.set_stress(at.points(q), step_fraction, now[q]);
     share_traces(J, {&now[0].stress, &now[1].stress, &now[2].stress, &now[3].stress}, has_flowed);
     law.template count_expansion<4>(group, {&now[0], &now[1], &now[2], &now[3]});
     Lanes stiffest = now[0].stiffness, softest = now[0].stiffness;
@@ -113,14 +113,14 @@ struct Update {
     }
     at.give_back();
     const Lanes density = lanes_of([&](int l) { return body().density[group.i[l]]; });
-    const Lanes bound2 = share * share * cells.volume() / density * cells.steepness() * modulus;
-    auto states = cells.states(share);
+    const Lanes bound2 = step_fraction * step_fraction * cells.volume() / density * cells.steepness() * modulus;
+    auto states = cells.states(step_fraction);
     states.back() = small::where_positive(stiffest, Lanes::Zero(), Lanes::Ones());  // failed
     const LaneVector force = cells.own_force(states);
     small::store_numbers(states, group.count, [&](int l) { return state_of(group, l).first; });
     for (int l = 0; l < group.count; ++l) body().force_density[group.i[l]] = small::at(force, l);
     if (law.pass.dt > 0 && !law.pass.of_any_size) {
-      begin_flow_of(group, now, share, small::where_positive(determinant, some_hold, Lanes::Zero()));
+      begin_flow_of(group, now, step_fraction, small::where_positive(determinant, some_hold, Lanes::Zero()));
     }
     return report(group, determinant, softest, bound2);
   }
@@ -131,11 +131,11 @@ struct Update {
   // The records of the next group. In a whole step they lie behind those of this one.
   Prefetch after(const LaneGroup& group) const {
     const int next = LaneGroup::width;
-    const std::size_t place = block().place(group.k[0], 0);
+    const std::size_t index = block().index(group.k[0], 0);
     Prefetch records;
-    records.add(body().fits->tiles().tile_of(body().fits->place(group.i[0])) + QuadraticFit::size, QuadraticFit::size);
-    records.add(block().cells->tiles().tile_of(place) + 4 * CellPoints::size, 4 * CellPoints::size);
-    records.add(block().state->tile_of(place) + 4 * columns, 4 * columns);
+    records.add(body().fits->tiles().tile_of(body().fits->index(group.i[0])) + QuadraticFit::size, QuadraticFit::size);
+    records.add(block().cells->tiles().tile_of(index) + 4 * CellPoints::size, 4 * CellPoints::size);
+    records.add(block().state->tile_of(index) + 4 * columns, 4 * columns);
     records.add(&state_of(group, 0) + next, next);
     records.add(&body().density[group.i[0]] + next, next);
     records.add(group.cluster->near.data() + group.cluster->near.size(), group.cluster->near.size());
@@ -146,15 +146,15 @@ struct Update {
   // A cell that begins to flow (only where `may` is 1) gets the mean of two forces: by its old fit, at the end of this
   // step, and by its new fit, at the start of the next. The work over both steps is then that of its stress, to second
   // order in the step.
-  void begin_flow_of(const LaneGroup& group, const std::array<Deformed, 4>& now, const Lanes& share,
+  void begin_flow_of(const LaneGroup& group, const std::array<Deformed, 4>& now, const Lanes& step_fraction,
                      const Lanes& may) const {
     if constexpr (!materials::tells_flow<L>) return;
     Lanes begun = Lanes::Zero();
     for (int l = 0; l < group.count; ++l) begun[l] = may[l] > 0 && begin_flow(body(), block(), group.k[l]) ? 1 : 0;
-    if (small::any_positive(begun)) take_mean_force(group, now, share, begun);
+    if (small::any_positive(begun)) take_mean_force(group, now, step_fraction, begun);
   }
   __attribute__((noinline)) void take_mean_force(const LaneGroup& group, const std::array<Deformed, 4>& now,
-                                                 const Lanes& share, const Lanes& begun) const {
+                                                 const Lanes& step_fraction, const Lanes& begun) const {
     const CellsOfGroup<L> at(block(), group);
     std::array<Polar<Lanes>, 4> polar;
     std::array<Lanes, 4> J;
@@ -169,7 +169,7 @@ struct Update {
       cells.add_stress(q, piola_kirchhoff(stress[q], polar[q], small::inverse(polar[q].stretch), J[q]));
     }
     std::array<QuadraticState, LaneGroup::width> next;
-    cells.store(group, share, [&](int l) -> QuadraticState& { return next[l]; });
+    cells.store(group, step_fraction, [&](int l) -> QuadraticState& { return next[l]; });
     for (int l = 0; l < group.count; ++l) {
       if (!(begun[l] > 0)) continue;
       state_of(group, l).take_half_of(next[l]);
@@ -210,9 +210,9 @@ void diagnose_cell(Body& body, const MaterialBlock& block, int k, const Tensor& 
   point.rotation = Rotation(R);
   Tensor stress = Tensor::Zero();
   for (int q = 0; q < 4; ++q) {
-    const MaterialPoint there = block.cells[block.place(k, q)];
-    const Tensor turned = R.transpose() * there.rotation.tensor();
-    stress += 0.25 * turned * to_tensor(there.stress) * turned.transpose();
+    const std::size_t index = block.index(k, q);
+    const Tensor turned = R.transpose() * block.cells->rotation_at(index).tensor();
+    stress += 0.25 * turned * to_tensor(block.cells->stress_at(index)) * turned.transpose();
   }
   point.stress = symmetric_part(stress);
 }

@@ -67,20 +67,20 @@ class QuadraticCells {
   }
 
   // The bond states of the points, times the fraction of the step, in the layout of QuadraticState.
-  std::array<Lanes, QuadraticState::size> states(const Lanes& share) const {
+  std::array<Lanes, QuadraticState::size> states(const Lanes& force_factor) const {
     std::array<Lanes, QuadraticState::size> numbers;
     Lanes *first = &numbers[0], *second_state = first + 9, *correction = second_state + 18, *offset = correction + 9;
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 3; ++c) {
         Lanes a = mean_.c[r][0] * linear(c, 0) + mean_.c[r][1] * linear(c, 1) + mean_.c[r][2] * linear(c, 2);
         for (int k = 0; k < 6; ++k) a += moment_[r][k] * mixed(k, c);
-        first[3 * r + c] = share * a;
-        correction[3 * r + c] = share * volume_ * mean_.c[r][c];
+        first[3 * r + c] = force_factor * a;
+        correction[3 * r + c] = force_factor * volume_ * mean_.c[r][c];
       }
       for (int l = 0; l < 6; ++l) {
         Lanes b = mean_.c[r][0] * bent(l, 0) + mean_.c[r][1] * bent(l, 1) + mean_.c[r][2] * bent(l, 2);
         for (int k = 0; k < 6; ++k) b += moment_[r][k] * second(k, l);
-        second_state[6 * r + l] = share * b;
+        second_state[6 * r + l] = force_factor * b;
       }
       offset[r] = correction[3 * r] * center(0) + correction[3 * r + 1] * center(1) + correction[3 * r + 2] * center(2);
     }
@@ -94,8 +94,8 @@ class QuadraticCells {
 
   // Writes the states to state_of(lane).
   template <class StateOf>
-  void store(const LaneGroup& group, const Lanes& share, const StateOf& state_of) const {
-    small::store_numbers(states(share), group.count, [&](int l) { return state_of(l).first; });
+  void store(const LaneGroup& group, const Lanes& force_factor, const StateOf& state_of) const {
+    small::store_numbers(states(force_factor), group.count, [&](int l) { return state_of(l).first; });
   }
 
   const Lanes& volume() const { return volume_; }
@@ -121,7 +121,7 @@ class QuadraticCells {
 
   static std::array<int, LaneGroup::width> places_of(const LaneGroup& group, const QuadraticFits& fits) {
     std::array<int, LaneGroup::width> places;
-    for (int l = 0; l < LaneGroup::width; ++l) places[l] = static_cast<int>(fits.place(group.i[l]));
+    for (int l = 0; l < LaneGroup::width; ++l) places[l] = static_cast<int>(fits.index(group.i[l]));
     return places;
   }
 

@@ -161,10 +161,10 @@ void QuadraticFits::for_each_weight(const Body& body, int i, int q,
   });
 }
 
-Tensor QuadraticFits::gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& place) const {
-  const Vector here = place(i);
+Tensor QuadraticFits::gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& position) const {
+  const Vector here = position(i);
   Tensor F = Tensor::Zero();
-  for_each_weight(body, i, q, [&](int j, const Vector& g) { F += (place(j) - here) * g.transpose(); });
+  for_each_weight(body, i, q, [&](int j, const Vector& g) { F += (position(j) - here) * g.transpose(); });
   return F;
 }
 

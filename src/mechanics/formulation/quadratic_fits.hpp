@@ -32,8 +32,8 @@ class QuadraticFits {
   // Weights of the family of an owned point that carries stress in F at integration point q: calls visit(j, g) with
   // F = Σ (y_j − y_i) ⊗ g, g in 1/m.
   void for_each_weight(const Body& body, int i, int q, const std::function<void(int j, const Vector& g)>& visit) const;
-  // F at integration point q, for points at place(j).
-  Tensor gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& place) const;
+  // F at integration point q, for points at position(j).
+  Tensor gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& position) const;
 
   QuadraticFit operator[](int i) const {
     std::array<double, QuadraticFit::size> numbers;
@@ -44,7 +44,7 @@ class QuadraticFits {
   double steepness(int i) const { return fits_.at(number_[i], QuadraticFit::size - 1); }
   // The tiles of all fits, with the numbers in the order of QuadraticFit, and the index of a point in them.
   const small::Tiles& tiles() const { return fits_; }
-  std::size_t place(int i) const { return number_[i]; }
+  std::size_t index(int i) const { return number_[i]; }
   // μ of owned points and ghosts; zero for other formulations.
   const Eigen::Array4d* multipliers() const { return multipliers_.data(); }
   double bytes() const;

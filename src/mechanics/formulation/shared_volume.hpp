@@ -49,7 +49,7 @@ class SharedVolume {
  public:
   SharedVolume(const MaterialBlock& block, int k) {
     for (int q = 0; q < 4; ++q) {
-      F_[q] = block.cells[block.place(k, q)].deformation_gradient;
+      F_[q] = block.cells[block.index(k, q)].deformation_gradient;
       inverse_transposed_[q] = F_[q].inverse().transpose();
       J_[q] = F_[q].determinant();
       volume_ += J_[q];

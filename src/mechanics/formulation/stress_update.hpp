@@ -1,5 +1,5 @@
-// SIMD: several integration points, one per lane: from deformation gradients to rotations, stretches and stresses. A
-// point by correspondence is its own integration point; the cell of a point by quadratic correspondence has four.
+// Computes rotations, stretches and stresses from deformation gradients, for several integration points at once, one
+// per SIMD lane. A point by correspondence is its own integration point; a cell by quadratic correspondence has four.
 #pragma once
 
 #include <array>
@@ -23,9 +23,9 @@ inline Lanes present(const LaneGroup& group) {
 }
 
 // The points' own steps as fractions of the step of a level.
-inline Lanes shares(const Body& body, const LaneGroup& group, int level) {
+inline Lanes step_fractions(const Body& body, const LaneGroup& group, int level) {
   if (body.time_levels.empty()) return Lanes::Ones();
-  return lanes_of([&](int l) { return body.share(group.i[l], level); });
+  return lanes_of([&](int l) { return body.step_fraction(group.i[l], level); });
 }
 
 // Stretch, R and stress of integration points by correspondence. They are read number by number: the transposition of
@@ -156,10 +156,10 @@ struct Deformed {
   LaneTensor F;
   Polar<Lanes> polar;
   LaneSymmetric inverse_stretch;
-  Lanes J;               // 0 for those that carry no stress
+  Lanes J;               // det F; 0 for points that carry no stress
   LaneSymmetric rates;   // zero if the step has no length
   LaneSymmetric stress;  // unrotated, with the viscous pressure
-  Lanes stiffness;       // M, Pa; 0 for those that have failed
+  Lanes stiffness;       // M, Pa; 0 for points that have failed
 };
 
 // Calls the law of one block for several integration points, one per lane.
@@ -175,14 +175,14 @@ struct LawUpdate {
   // points that carry stress, 0 for others, to which the law does not apply: it may have a stress at rest (plastic
   // strain, pressure).
   template <class Numbers>
-  Deformed deformed(const LaneGroup& group, const Numbers& old, const LaneTensor& F, const Lanes& share,
+  Deformed deformed(const LaneGroup& group, const Numbers& old, const LaneTensor& F, const Lanes& step_fraction,
                     const Lanes& carries) const {
     const Polar<Lanes> polar = polar_of(old.rotations(), F, pass.of_any_size);
     Deformed now{F, polar, small::inverse(polar.stretch), small::determinant(F) * carries, {}, {}, {}};
     if (pass.dt > 0 && !body.expansion.empty()) {
-      now.rates = elastic_rate(body, group, old, polar.stretch, pass.dt * share);
+      now.rates = elastic_rate(body, group, old, polar.stretch, pass.dt * step_fraction);
     } else if (pass.dt > 0) {
-      now.rates = strain_rate(old.stretches(), polar.stretch, pass.dt * share);
+      now.rates = strain_rate(old.stretches(), polar.stretch, pass.dt * step_fraction);
     } else {
       for (int c = 0; c < 6; ++c) now.rates.c[c].setZero();
     }
@@ -191,13 +191,13 @@ struct LawUpdate {
 
   // Advances stress and state.
   template <class Numbers>
-  void set_stress(const IntegrationPoints<Numbers>& g, const Lanes& share, Deformed& now) const {
+  void set_stress(const IntegrationPoints<Numbers>& g, const Lanes& step_fraction, Deformed& now) const {
     now.stiffness = stiffness_of(g);
     if (!(pass.dt > 0)) {
       now.stress = g.numbers.stresses();
       return;
     }
-    const Lanes dt = pass.dt * share;
+    const Lanes dt = pass.dt * step_fraction;
     Viscous viscous{Lanes::Zero(), Lanes::Zero()};
     if (!block.viscous.empty()) viscous = add_viscosity(g, now, dt);
     now.stress = advance_laws(g, now, dt, viscous.work);
@@ -352,7 +352,7 @@ inline void add_damping(const MaterialBlock& block, const StressPass& pass, cons
     const LaneGroup group = groups[g];
     double most = 0;
     for (const int k : group.k) {
-      for (int q = 0; q < block.points_per_cell(); ++q) most = std::max(most, block.viscous[block.place(k, q)].damping);
+      for (int q = 0; q < block.points_per_cell(); ++q) most = std::max(most, block.viscous[block.index(k, q)].damping);
     }
     return most;
   };

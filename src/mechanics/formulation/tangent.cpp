@@ -107,26 +107,26 @@ std::vector<PointTangent> point_tangents(const Body& body, const Committed& star
     const MaterialBlock& block = body.blocks[b];
     if (block.is_ordinary()) continue;
     const auto of_block = [&]<class L>(const L& law) {
-      const auto at_place = [&](int i, std::size_t place, const MaterialPoint& old, const MaterialPoint& now) {
-        const auto state = state_in<L>(start.state(b), place);
+      const auto at_index = [&](int i, std::size_t index, const MaterialPoint& old, const MaterialPoint& now) {
+        const auto state = state_in<L>(start.state(b), index);
         const PointExpansion expansion = body.expansion.empty() ? PointExpansion() : body.expansion[i];
         return point_tangent(now, by_stretch(law, old, now, expansion, dt, state));
       };
-      const auto has_failed = [&](std::size_t place) { return !(block.moduli(place).longitudinal() > 0); };
+      const auto has_failed = [&](std::size_t index) { return !(block.moduli(index).longitudinal() > 0); };
       for_each_point(0, static_cast<int>(block.points.size()), [&](int k) {
         const int i = block.points[k];
         materials::PointsOfCall<L> here;
         here.add(body.domain.sites[i].reference.data());
         if (!block.is_quadratic()) {
           if (has_failed(k)) return;
-          tangents[i] = at_place(i, k, start.point(i), body.points[i]);
+          tangents[i] = at_index(i, k, start.point(i), body.points[i]);
           return;
         }
         for (int q = 0; q < block.points_per_cell(); ++q) {
-          const std::size_t place = block.place(k, q);
-          if (has_failed(place)) continue;  // the other points of the cell hold
-          PointTangent& tangent = tangents[body.owned() + block.first_integration_point + place];
-          tangent = at_place(i, place, start.cell(b, place), block.cells[place]);
+          const std::size_t index = block.index(k, q);
+          if (has_failed(index)) continue;  // the other points of the cell hold
+          PointTangent& tangent = tangents[body.owned() + block.first_integration_point + index];
+          tangent = at_index(i, index, start.cell(b, index), block.cells[index]);
           tangents[i].by_gradient += tangent.by_gradient / block.points_per_cell();
         }
       });

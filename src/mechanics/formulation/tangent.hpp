@@ -18,9 +18,9 @@ class Committed {
   void restore_materials(Body& body) const;  // all but the positions: the start of a trial at other positions
 
   const MaterialPoint& point(int i) const { return points_[i]; }
-  MaterialPoint cell(std::size_t block, std::size_t place) const { return cells_[block][place]; }
+  MaterialPoint cell(std::size_t block, std::size_t index) const { return cells_[block][index]; }
   const small::Tiles& state(std::size_t block) const { return states_[block]; }
-  Vector place(int i) const { return places_[i].head<3>().matrix(); }
+  Vector position(int i) const { return places_[i].head<3>().matrix(); }
 
  private:
   std::vector<Eigen::Array4d> places_;

@@ -126,7 +126,7 @@ template <class Family>
 using ScalarOf = typename Family::Scalar;
 
 template <class Family>
-Vector3<ScalarOf<Family>> own_place(const Family& family, const Site* sites, Eigen::Array4d Site::*place) {
+Vector3<ScalarOf<Family>> own_position(const Family& family, const Site* sites, Eigen::Array4d Site::*place) {
   const auto X = family.template own<3>([&](int i) { return (sites[i].*place).data(); });
   return {{X[0], X[1], X[2]}};
 }
@@ -170,7 +170,7 @@ inline void over(const Family& family, const Site* sites, Weight, Visit&& visit,
                  [[maybe_unused]] const Record*... read) {
   using T = ScalarOf<Family>;
   using std::sqrt;
-  const Vector3<T> X = own_place(family, sites, &Site::reference);
+  const Vector3<T> X = own_position(family, sites, &Site::reference);
   const T horizon = family.template own<1>([&](int i) { return sites[i].current.data() + 3; })[0];
   const auto at_bond = [&](int j, const auto& present) {
     const Site& there = sites[j];
@@ -200,7 +200,7 @@ struct Moments {
 template <bool with_pull, class Family, class Weight>
 inline Moments<ScalarOf<Family>> gather(const Family& family, const Site* sites, Weight weight) {
   using T = ScalarOf<Family>;
-  const Vector3<T> y = own_place(family, sites, &Site::current);
+  const Vector3<T> y = own_position(family, sites, &Site::current);
   Moments<T> sums;
   over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
     const Vector3<T> eta = apart(sites[j].current, y);
@@ -229,7 +229,7 @@ template <bool with_springs, class Family, class Weight>
 inline Vector3<ScalarOf<Family>> far_force(const Family& family, const Site* sites, const ForceState* states,
                                            Weight weight) {
   using T = ScalarOf<Family>;
-  const Vector3<T> y = own_place(family, sites, &Site::current);
+  const Vector3<T> y = own_position(family, sites, &Site::current);
   Tensor3<T> by_axis = zero_tensor<T>();  // by the component of ξ, for independent chains of additions
   Vector3<T> springs = zero_vector<T>();
   over(
@@ -266,7 +266,7 @@ template <class Family, class Weight>
 inline ScalarOf<Family> squared_residual(const Family& family, const Site* sites, const MaterialPoint* points,
                                          Weight weight) {
   using T = ScalarOf<Family>;
-  const Vector3<T> y = own_place(family, sites, &Site::current);
+  const Vector3<T> y = own_position(family, sites, &Site::current);
   const auto F = family.template own<9>([&](int i) { return points[i].deformation_gradient.data(); });  // by columns
   T sum = zero_vector<T>().c[0];
   over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
@@ -279,11 +279,11 @@ inline ScalarOf<Family> squared_residual(const Family& family, const Site* sites
 
 // ---- The residual of both ends' gradients --------------------------------------------------------------------------
 
-// F, C and the fraction of the step of the points.
+// F, C and the factor on the force of the points (GradientState).
 template <class T>
 struct OwnGradient {
   Tensor3<T> F;
-  T stiffness, step_share;
+  T stiffness, force_factor;
 };
 
 // C of a record if its stabilization is the one at `kind`, else 0; with only one bond stabilization there is no check.
@@ -304,17 +304,18 @@ OwnGradient<ScalarOf<Family>> own_gradient(const Family& family, const GradientS
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) own.F.c[r][c] = numbers[4 * c + r];
   }
-  own.stiffness = stiffness_of(kind, numbers[3], numbers[11]), own.step_share = numbers[7];
+  own.stiffness = stiffness_of(kind, numbers[3], numbers[11]), own.force_factor = numbers[7];
   return own;
 }
 
-// Calls visit(ω V_j t without the fraction, z, ξ, fraction) for each bond of a family, where t is the force of the
-// stabilization S at `kind`. It acts in the steps of the end of the lower time-step level, so with the larger fraction.
+// Calls visit(ω V_j t, z, ξ, factor) for each bond of a family: t is the force of the stabilization S at `kind`, which
+// the visit multiplies by the factor. A spring acts in the steps of its end with the lower time-step level, so the
+// larger factor of both ends counts.
 template <class S, class Family, class Weight, class Visit>
 inline void over_residuals(std::size_t kind, const Family& family, const Site* places, const GradientState* gradients,
                            Weight weight, Visit&& visit) {
   using T = ScalarOf<Family>;
-  const Vector3<T> y = own_place(family, places, &Site::current);
+  const Vector3<T> y = own_position(family, places, &Site::current);
   const OwnGradient<T> here = own_gradient(family, gradients, kind);
   const Tensor3<T>& F = here.F;
   over(
@@ -327,14 +328,14 @@ inline void over_residuals(std::size_t kind, const Family& family, const Site* p
                            (F.c[r][2] + there.column[2][r]) * xi.c[2];
           z.c[r] -= 0.5 * fitted;
         }
-        const double far_C = stiffness_of(kind, there.stiffness(), there.kind()), far_share = there.column[1][3];
-        T stiffness, share;
+        const double far_C = stiffness_of(kind, there.stiffness(), there.kind()), far_factor = there.column[1][3];
+        T stiffness, factor;
         if constexpr (std::is_same_v<T, double>) {
-          stiffness = 2 * w * std::min(here.stiffness, far_C), share = std::max(here.step_share, far_share);
+          stiffness = 2 * w * std::min(here.stiffness, far_C), factor = std::max(here.force_factor, far_factor);
         } else {
-          stiffness = 2 * w * here.stiffness.min(far_C), share = here.step_share.max(far_share);
+          stiffness = 2 * w * here.stiffness.min(far_C), factor = here.force_factor.max(far_factor);
         }
-        visit(S::bond_force(stiffness, z, xi), z, xi, share);
+        visit(S::bond_force(stiffness, z, xi), z, xi, factor);
       },
       gradients);
 }
@@ -351,9 +352,9 @@ inline Residual<ScalarOf<Family>> residual(std::size_t kind, const Family& famil
   using T = ScalarOf<Family>;
   Residual<T> sums{zero_vector<T>(), zero_tensor<T>()};
   over_residuals<S>(kind, family, places, gradients, weight,
-                    [&](const Vector3<T>& force, const Vector3<T>&, const Vector3<T>& xi, const T& share) {
+                    [&](const Vector3<T>& force, const Vector3<T>&, const Vector3<T>& xi, const T& factor) {
                       for (int r = 0; r < 3; ++r) {
-                        const T t = share * force.c[r];
+                        const T t = factor * force.c[r];
                         sums.force.c[r] += t;
                         for (int c = 0; c < 3; ++c) sums.moment.c[r][c] += t * xi.c[c];
                       }

@@ -1,5 +1,5 @@
-// SIMD: several points of a block, one per lane, and the sums over their families: from the neighbor list of their
-// cluster, or from the sums over their lattice.
+// Groups of points of a block, one point per SIMD lane, and the sums over their families. These come from the neighbor
+// list of the points' cluster, or from the sums over their lattice.
 #pragma once
 
 #include <algorithm>

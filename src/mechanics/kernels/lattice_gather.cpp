@@ -71,10 +71,10 @@ struct LatticeSums::Traversal::Shapes {
 };
 
 void LatticeSums::Traversal::gather_shape(int slot, int z) {
-  const int place = lattice_->place(slot);
+  const int index = lattice_->index(slot);
   Pencil K[9] = {}, S[3] = {}, W = {};
   for (const Row& row : all_.rows_) {
-    const int beside = place + row.offset, plane = z + row.dz;
+    const int beside = index + row.offset, plane = z + row.dz;
     const std::array<const Pencil*, 3> there{source_at(beside - 1, plane), source_at(beside, plane),
                                              source_at(beside + 1, plane)};
     Shapes sums{there, all_.kinds_[row.kind], lattice_->frame().spacing[0]};
@@ -318,8 +318,8 @@ struct LatticeSums::Traversal::Residuals {
   void add_bond() {
     const double x = dx * spacing;
     const auto far = [this](int column) { return shifted<dx>(there[0][column], there[1][column], there[2][column]); };
-    const Pencil C = far(12), share = far(14);
-    const Pencil stiffness = (own[12] < C ? own[12] : C) * (own[14] < share ? share : own[14]);
+    const Pencil C = far(12), factor = far(14);
+    const Pencil stiffness = (own[12] < C ? own[12] : C) * (own[14] < factor ? factor : own[14]);
     const Pencil weight = (2 * kind.weight[dx < 0 ? -dx : dx]) * far(13) * stiffness;
     small::Vector3<Pencil> residual;
     for (int c = 0; c < 3; ++c) {
@@ -346,11 +346,11 @@ struct LatticeSums::Traversal::Residuals {
 
 template <class S>
 void LatticeSums::Traversal::gather_residuals(int slot, int z) {
-  const int place = lattice_->place(slot);
+  const int index = lattice_->index(slot);
   const Pencil* own = sources_.of(z, slot);
   Pencil M[9] = {}, force[3] = {};
   for (const Row& row : all_.rows_) {
-    const int beside = place + row.offset, plane = z + row.dz;
+    const int beside = index + row.offset, plane = z + row.dz;
     const Pencil* ends[] = {source_at(beside - 1, plane), source_at(beside, plane), source_at(beside + 1, plane)};
     Pencil fitted[9], base[3];
     for (int c = 0; c < 3; ++c) {

@@ -28,9 +28,9 @@ template <class Weight>
 LatticeSums::Kind LatticeSums::kind_of(int reach, double spacing, const Eigen::Array2d& aside, Weight weight) const {
   Kind kind{.reach = reach};
   for (int d = 0; d <= reach; ++d) {
-    const double way = d * spacing, length = std::sqrt(way * way + aside.square().sum());
+    const double offset = d * spacing, length = std::sqrt(offset * offset + aside.square().sum());
     kind.weight[d] = weight.of(length / lattice_->frame().horizon);
-    kind.first[d] = kind.weight[d] * way;
+    kind.first[d] = kind.weight[d] * offset;
   }
   return kind;
 }
@@ -76,7 +76,7 @@ void LatticeSums::mark_places() {
   row_begins_.assign(static_cast<std::size_t>(shape[1]) * shape[2] + 1, 0);
   slots_at_.assign(shape[1], 0);
   for (int slot = 1; slot < lattice_->slots(); ++slot) {
-    const int row = lattice_->place(slot) / shape[0], x = lattice_->place(slot) % shape[0];
+    const int row = lattice_->index(slot) / shape[0], x = lattice_->index(slot) % shape[0];
     const std::size_t word = static_cast<std::size_t>(row) * words_ + x / 64;
     const std::uint64_t bit = std::uint64_t{1} << x % 64;
     filled_[word] |= bit;

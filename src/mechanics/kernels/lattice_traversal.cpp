@@ -8,22 +8,22 @@ namespace lattice {
 
 void Planes::keep(int planes) {
   count_ = planes;
-  if (room_.size() < static_cast<std::size_t>(planes))
-    room_.resize(planes), begins_.resize(planes), ends_.resize(planes);
+  if (storage_.size() < static_cast<std::size_t>(planes))
+    storage_.resize(planes), begins_.resize(planes), ends_.resize(planes);
 }
 
 void Planes::open(int z, int begin, int end, int columns) {
   columns_ = columns;
   begins_[z % count_] = begin, ends_[z % count_] = end;
-  std::vector<Pencil>& room = room_[z % count_];
+  std::vector<Pencil>& storage = storage_[z % count_];
   const std::size_t needed = static_cast<std::size_t>(end - begin) * columns;
-  room.reserve(needed);  // no more, so that the memory forecast does not depend on the order of strips
-  room.resize(std::max(room.size(), needed));
+  storage.reserve(needed);  // no more, so that the memory forecast does not depend on the order of strips
+  storage.resize(std::max(storage.size(), needed));
 }
 
 std::size_t Planes::pencils() const {
   std::size_t pencils = 0;
-  for (const auto& plane : room_) pencils += plane.capacity();
+  for (const auto& plane : storage_) pencils += plane.capacity();
   return pencils;
 }
 
@@ -64,8 +64,8 @@ void LatticeSums::Traversal::take_plane(int z, int columns, const Take& take) {
 }
 
 double LatticeSums::Traversal::bytes() const {
-  return static_cast<double>(sizeof(Pencil) *
-                             (row_.size() + ring_.room.size() + across_.size() + sums_.pencils() + sources_.pencils()));
+  return static_cast<double>(
+      sizeof(Pencil) * (row_.size() + ring_.storage.size() + across_.size() + sums_.pencils() + sources_.pencils()));
 }
 
 // Chance decides which thread runs which strip, so each counts with the largest workspace of any.

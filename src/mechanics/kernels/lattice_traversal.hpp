@@ -43,25 +43,25 @@ class Planes {
   int begin(int z) const { return begins_[z % count_]; }
   int end(int z) const { return ends_[z % count_]; }
   Pencil* of(int z, int slot) {
-    return room_[z % count_].data() + static_cast<std::size_t>(slot - begin(z)) * columns_;
+    return storage_[z % count_].data() + static_cast<std::size_t>(slot - begin(z)) * columns_;
   }
   std::size_t pencils() const;
 
  private:
   int columns_ = 0, count_ = 1;
-  std::vector<std::vector<Pencil>> room_;
+  std::vector<std::vector<Pencil>> storage_;
   std::vector<int> begins_, ends_;  // slots
 };
 
 // The sums along x or z at each x of the rows that a stencil reaches in a plane.
 struct Ring {
   int rows = 1, columns = 0;  // per x
-  std::vector<Pencil> room;
+  std::vector<Pencil> storage;
   void open(int across, int of_a_place, int places) {
     rows = across, columns = of_a_place;
-    room.resize(std::max(room.size(), static_cast<std::size_t>(rows) * places * columns));
+    storage.resize(std::max(storage.size(), static_cast<std::size_t>(rows) * places * columns));
   }
-  Pencil* row(int y, int places) { return room.data() + static_cast<std::size_t>(y % rows) * places * columns; }
+  Pencil* row(int y, int places) { return storage.data() + static_cast<std::size_t>(y % rows) * places * columns; }
 };
 
 // Divides a lattice whose rows hold slots_at[y] slots into `count` strips or more, a multiple of the threads, with
@@ -150,11 +150,11 @@ class LatticeSums::Traversal {
 // at least one strip per thread, even if it is hardly higher than the rows beside it that are summed twice.
 template <class Work>
 void LatticeSums::over_strips(int pencils, const Work& work) {
-  constexpr double room = 1 << 20;
+  constexpr double budget = 1 << 20;
   const int y_rows = static_cast<int>(slots_at_.size()) - 2 * far_y();
   const double a_row = sizeof(Pencil) * pencils * lattice_->slots() / (1.0 + rows_with_slots_);
   const int height =
-      std::max(4 * far_y() + 2, static_cast<int>(room / a_row));  // because the rows beside a strip are summed twice
+      std::max(4 * far_y() + 2, static_cast<int>(budget / a_row));  // because the rows beside a strip are summed twice
   const std::vector<lattice::Strip> strips = lattice::strips(slots_at_, far_y(), (y_rows + height - 1) / height);
   while (traversals_.size() < static_cast<std::size_t>(threads())) {
     traversals_.push_back(std::make_shared<Traversal>(*this));

@@ -25,7 +25,7 @@ template <class Family, class Weight, class Visit, class... Record>
 inline void over_stretched(const Family& family, const Site* sites, Weight weight, Visit&& visit,
                            const Record*... read) {
   using T = ScalarOf<Family>;
-  const Vector3<T> y = own_place(family, sites, &Site::current);
+  const Vector3<T> y = own_position(family, sites, &Site::current);
   over(
       family, sites, weight,
       [&](int j, const T& w, const Vector3<T>& xi, const auto& present) {
@@ -74,7 +74,7 @@ template <class Family>
 class OfField {
  public:
   using T = ScalarOf<Family>;
-  OfField(const Family& family, const Site* field) : field_(field), own_(own_place(family, field, &Site::current)) {}
+  OfField(const Family& family, const Site* field) : field_(field), own_(own_position(family, field, &Site::current)) {}
   T times_length(const Stretched<T>& bond) const {
     using std::sqrt;
     return sqrt(bond.xi2 / bond.eta2) * eta_times_change(bond);

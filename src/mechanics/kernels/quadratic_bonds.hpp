@@ -31,7 +31,7 @@ inline QuadraticMoments<ScalarOf<Family>> quadratic_gather(const Family& family,
                                                            const Eigen::Array4d* multipliers, Weight weight,
                                                            Prefetch ahead) {
   using T = ScalarOf<Family>;
-  const Vector3<T> y = own_place(family, sites, &Site::current);
+  const Vector3<T> y = own_position(family, sites, &Site::current);
   QuadraticMoments<T> N;
   {
     Tensor3<T> first = zero_tensor<T>(), correction = zero_tensor<T>();

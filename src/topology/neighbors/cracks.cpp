@@ -8,7 +8,7 @@ namespace strut {
 namespace {
 
 // A bond through the edge counts as crossing, to round-off.
-bool within(double way, double most) { return way > -1e-12 * most && way < most * (1 + 1e-12); }
+bool within(double distance, double most) { return distance > -1e-12 * most && distance < most * (1 + 1e-12); }
 
 bool contains(const RectangularCrack& crack, const Vector& x) {
   const Vector from = x - crack.corner, side = crack.along.cross(crack.normal);

@@ -11,16 +11,16 @@
 
 namespace strut {
 
-// SIMD: points that kernels process side by side, one per lane, with one list for all of them: the members of any of
-// their families, each with a mask of the points whose families it is in. Points of a cluster lie close together, so
-// that most members are in several of these families, and each is read once.
+// Points that kernels process together, one per SIMD lane. They share one neighbor list, the union of their families; a
+// mask says for each neighbor which of the points have it in their family. Points of a cluster lie close together, so
+// most neighbors are in several of the families, and each neighbor is read once for all of them.
 struct Cluster {
   static constexpr int width = small::lane_count;
 
   std::span<const int> points;  // local indices; at most `width`
   std::span<const int> near;
   const std::uint8_t* mask;  // of near: bit l is set if near[n] is in the family of points[l]
-  std::size_t to_end;        // entries from near[0] to the end of all lists: those of the next clusters follow
+  std::size_t to_end;        // entries from near[0] to the end of the lists of all clusters: a prefetch may go so far
 
   std::size_t family_size(std::size_t l) const {  // of points[l]
     std::size_t size = 0;
@@ -45,7 +45,7 @@ class ClusterLists {
                                first_.size() * (sizeof(int) + 2 * sizeof(std::size_t)));
   }
 
-  // The cluster of point i, for points that are numbered consecutively.
+  // The index of the cluster that contains point i, if points are numbered consecutively from cluster to cluster.
   int holding(int i) const {
     const auto begins_after = [this](int point, int b) { return point < points_[b]; };
     const auto after = std::upper_bound(first_.begin(), first_.end() - 1, i, begins_after);
@@ -64,7 +64,8 @@ class ClusterLists {
   // The index of the first point of a cluster among those of all clusters.
   int first(int b) const { return first_[b]; }
 
-  // Appends some members of a cluster of other lists, one bit each, with their families there.
+  // Appends a cluster of those points of `cluster` (of other lists) whose bits are set in `members`, with their
+  // families.
   void append(const Cluster& cluster, unsigned members) {
     for (std::size_t l = 0; l < cluster.points.size(); ++l) {
       if (members >> l & 1) points_.push_back(cluster.points[l]);
@@ -81,9 +82,9 @@ class ClusterLists {
     close();
   }
 
-  // Removes the n-th neighbor of a cluster from the families of the members whose bits are set.
+  // Removes the n-th neighbor of cluster b from the families of its points whose bits are set in `members`.
   void cut(int b, std::size_t n, std::uint8_t members) { mask_[start_[b] + n] &= static_cast<std::uint8_t>(~members); }
-  // Removes the neighbors that are in no family of a cluster any more; the others keep their order.
+  // Removes the neighbors of cluster b that cut() has left in no family; the others keep their order.
   void drop_cut(int b) {
     std::size_t kept = start_[b];
     for (std::size_t n = start_[b]; n < end_[b]; ++n) {
@@ -161,15 +162,16 @@ struct SelectedPoints {
   ClusterLists lists;
 };
 
-// Local indices of owned points or ghosts. The family of a point on a lattice is a stencil; all other points are in
-// clusters, each of one block and of the interior or the boundary. The order is that of the lattice, or of global ids,
-// so that every sum over a family is the same on any number of ranks. If a lattice may lose bonds, its points are in
-// clusters, too, for access to single bonds and as families of points with broken bonds.
+// The families of all owned points, as local indices of owned points and ghosts. The family of a point on a lattice is
+// a stencil. All other points are in clusters; a cluster has points of one block, all interior or all boundary.
+// Neighbors are in the order of the lattice or of global ids, so every sum over a family is the same on any number of
+// ranks. If bonds of a lattice may break, its points are in clusters, too: for access to single bonds, and because
+// points with broken bonds use lists.
 struct Families {
   ClusterLists lists;
   std::vector<LatticeFamilies> lattices;
   std::vector<int> lattice_of;    // of owned points: index in lattices, −1 for lists; empty without a lattice
-  std::vector<char> off_stencil;  // of owned points: has lost bonds of its stencil; empty if no lattice may
+  std::vector<char> off_stencil;  // of owned points: bonds of its stencil have broken; empty if none on a lattice may
   // The far ends of the broken bonds of each owned point, local indices. Empty if no bond may break.
   std::vector<std::vector<int>> broken;
 

@@ -138,7 +138,7 @@ std::vector<LatticeFrame> lattice_frames(const PointCloud& cloud, const std::vec
 struct LatticeFamilies::Box {
   Eigen::Array3i low, shape;  // x in pencils
 
-  int place(const Eigen::Array3i& cell) const {
+  int index(const Eigen::Array3i& cell) const {
     const Eigen::Array3i p = Eigen::Array3i(cell[0] / width, cell[1], cell[2]) - low;
     return (p[2] * shape[1] + p[1]) * shape[0] + p[0];
   }
@@ -180,23 +180,23 @@ void LatticeFamilies::make_slots(const Box& box, const std::vector<int>& members
                                  const std::vector<Eigen::Array3i>& cells, int owned) {
   grid_.assign(static_cast<std::size_t>(box.shape.cast<double>().prod()), 0);
   for (const Eigen::Array3i& cell : cells) {
-    const int place = box.place(cell), x = cell[0] % width;
-    grid_[place] = 1;
-    if (x < reach_) grid_[place - 1] = 1;
-    if (x >= width - reach_) grid_[place + 1] = 1;
+    const int index = box.index(cell), x = cell[0] % width;
+    grid_[index] = 1;
+    if (x < reach_) grid_[index - 1] = 1;
+    if (x >= width - reach_) grid_[index + 1] = 1;
   }
   places_ = {0};
   shape_ = box.shape;
-  for (int place = 0; place < static_cast<int>(grid_.size()); ++place) {
-    if (grid_[place] == 0) continue;
-    grid_[place] = slots();
-    places_.push_back(place);
+  for (int index = 0; index < static_cast<int>(grid_.size()); ++index) {
+    if (grid_[index] == 0) continue;
+    grid_[index] = slots();
+    places_.push_back(index);
   }
   points_.assign(static_cast<std::size_t>(slots()) * width, -1);
   filled_.assign(slots(), 0);
   owned_.assign(slots(), 0);
   for (std::size_t m = 0; m < members.size(); ++m) {
-    const int i = members[m], slot = grid_[box.place(cells[m])];
+    const int i = members[m], slot = grid_[box.index(cells[m])];
     cell_[i] = slot * width + cells[m][0] % width;
     points_[cell_[i]] = i;
     filled_[slot] |= 1u << cells[m][0] % width;
@@ -205,22 +205,22 @@ void LatticeFamilies::make_slots(const Box& box, const std::vector<int>& members
 }
 
 bool LatticeFamilies::begins_run(int i) const {
-  const int place = places_[cell_[i] / width], lane = cell_[i] % width;
-  return lane > 0 ? !has_point(place, lane - 1) : !has_point(place - 1, width - 1);
+  const int index = places_[cell_[i] / width], lane = cell_[i] % width;
+  return lane > 0 ? !has_point(index, lane - 1) : !has_point(index - 1, width - 1);
 }
 
 std::size_t LatticeFamilies::family_size(int i) const {
-  const int place = places_[cell_[i] / width], lane = cell_[i] % width;
+  const int index = places_[cell_[i] / width], lane = cell_[i] % width;
   std::size_t count = 0;
-  for (const Row& row : rows_) count += std::popcount(neighbors_in(row, &grid_[place + row.offset], lane));
+  for (const Row& row : rows_) count += std::popcount(neighbors_in(row, &grid_[index + row.offset], lane));
   return count - 1;  // without the point itself
 }
 
 bool LatticeFamilies::spans_space(int i) const {
   if (!(frame_.spacing.array() <= frame_.horizon).all()) return false;
-  const int place = places_[cell_[i] / width], lane = cell_[i] % width;
+  const int index = places_[cell_[i] / width], lane = cell_[i] % width;
   const auto beside = [&](int dx, int dy, int dz) {
-    const int x = lane + dx, row = place + (dz * shape_[1] + dy) * shape_[0];
+    const int x = lane + dx, row = index + (dz * shape_[1] + dy) * shape_[0];
     return has_point(row + (x + width) / width - 1, (x + width) % width) ? 1 : 0;
   };
   const int along_x = beside(-1, 0, 0) + beside(1, 0, 0), along_y = beside(0, -1, 0) + beside(0, 1, 0);

@@ -25,12 +25,12 @@ struct LatticeFrame {
   Vector spacing = Vector::Ones();  // m
   double horizon = 0;               // m, of all points of the body
   int body = 0;                     // BlockBonds::body
-  bool wanted = false;              // even if lists were faster
-  bool loses_bonds = false;         // lists of its points exist, too
+  bool wanted = false;              // use it even if lists are faster
+  bool loses_bonds = false;         // its bonds may break, so its points have lists, too
 
   Eigen::Array3i cell_of(const Vector& X) const;
   bool has(const Vector& X) const;  // the point is at a cell
-  void make_room();                 // for images of points before the origin, within the horizon
+  void make_room();                 // moves the origin back, so that images of points within the horizon have cells
 };
 
 // Collective. The bodies whose points are on a lattice. Excluded: coordinates off by more than 1e-9 spacings; horizons
@@ -56,9 +56,9 @@ class LatticeFamilies {
   // Calls visit(j) over the family of point i.
   template <class Visit>
   void for_each(int i, Visit&& visit) const {
-    const int place = places_[cell_[i] / width], lane = cell_[i] % width;
+    const int index = places_[cell_[i] / width], lane = cell_[i] % width;
     for (const Row& row : rows_) {
-      const int* slots = &grid_[place + row.offset];
+      const int* slots = &grid_[index + row.offset];
       for (unsigned near = neighbors_in(row, slots, lane); near != 0; near &= near - 1) {
         const int x = std::countr_zero(near);  // counted from the first cell of the pencil before
         const int j = points_[slots[x / width - 1] * width + x % width];
@@ -76,10 +76,10 @@ class LatticeFamilies {
   int reach() const { return reach_; }              // of the longest row
   int rows_across() const { return rows_across_; }  // extent of its rows along y
   int cell(int i) const { return cell_[i]; }  // slot · width + position in the pencil; −1 for points of other bodies
-  int point(int slot, int place) const { return points_[slot * width + place]; }  // −1: none
+  int point(int slot, int lane) const { return points_[slot * width + lane]; }  // −1: none
   int slots() const { return static_cast<int>(places_.size()); }
-  int slot_at(int place) const { return grid_[place]; }  // 0: empty
-  int place(int slot) const { return places_[slot]; }
+  int slot_at(int index) const { return grid_[index]; }  // 0: empty
+  int index(int slot) const { return places_[slot]; }
   bool is_owned(int slot) const { return owned_[slot] != 0; }  // has a point that this rank owns
 
   // A position in the grid is (z · shape()[1] + y) · shape()[0] + x, x in pencils; z = 0 is the lowest plane that
@@ -97,7 +97,7 @@ class LatticeFamilies {
     const unsigned filled = filled_[slots[-1]] | filled_[slots[0]] << width | filled_[slots[1]] << 2 * width;
     return filled & ((2u << 2 * row.reach) - 1) << (width + lane - row.reach);
   }
-  bool has_point(int place, int lane) const { return (filled_[grid_[place]] >> lane & 1) != 0; }
+  bool has_point(int index, int lane) const { return (filled_[grid_[index]] >> lane & 1) != 0; }
 
   struct Box;
   void make_rows(const Box& box);

@@ -216,7 +216,7 @@ TEST_P(DomainOf, HaloMovesThePlacesAndNoOthers) {
   for (int i = 0; i < domain.owned; ++i) domain.sites[i].current[3] = 7;
   for (int round = 0; round < 3; ++round) {
     for (int i = 0; i < domain.owned; ++i) domain.sites[i].current.head<3>() = place(ids[i], round).array();
-    domain.halo.exchange_places(domain.sites);
+    domain.halo.exchange_positions(domain.sites);
     for (int i = 0; i < domain.owned + domain.ghosts; ++i) {
       EXPECT_EQ(domain.current(i), place(ids[i], round));
       EXPECT_EQ(domain.sites[i].horizon(), i < domain.owned ? 7 : -7);

@@ -79,7 +79,7 @@ TEST(Periods, ImagesAreWhereTheStretchedSidesPutThem) {
   }
   world.sum(std::span(all[0].data(), 3 * all.size()));
   domain.halo.set_stretch(stretch);
-  domain.halo.exchange_places(domain.sites);
+  domain.halo.exchange_positions(domain.sites);
   for (int g = domain.owned; g < domain.owned + domain.ghosts; ++g) {
     const Vector original = all[Images::original(domain.id(g))];
     const Vector shift = domain.reference(g) - original;  // whole periods

@@ -47,11 +47,11 @@ TEST(MassScaling, MakesTheStepAsLongAsWanted) {
     const RunFolder folder(lattice);
     const double usual = usual_step(folder, formulation);
     Simulation run(folder, bar(formulation, wanted(2 * usual, "1")));
-    const double volume = run.volume(), share = added_mass(run) / (8930 * volume);
+    const double volume = run.volume(), fraction = added_mass(run) / (8930 * volume);
     EXPECT_GE(0.8 * run.solver.critical_time_step(), 2 * usual * (1 - 1e-6)) << formulation;  // digits of the deck
     const Ledger end = run.go([](const Ledger&) {});
-    EXPECT_GT(share, 0.1) << formulation;  // less than (4 − 1)/10: points at its surface are slower
-    EXPECT_LT(share, 0.5) << formulation;
+    EXPECT_GT(fraction, 0.1) << formulation;  // less than (4 − 1)/10: points at its surface are slower
+    EXPECT_LT(fraction, 0.5) << formulation;
     EXPECT_LT(end.balance_error, 2e-3) << formulation;  // leap-frog steps: (ω dt)² of the modes that ring
     EXPECT_NE(run.advice.warnings.find("mass scaling for a step of"), std::string::npos);
     EXPECT_EQ(run.advice.warnings.find(" on 0 of "), std::string::npos) << run.advice.warnings;

@@ -11,7 +11,7 @@ int count(Schedule schedule, double initial_time, double dt, int steps) {
   int found = 0;
   double time = initial_time;
   for (int step = 0; step <= steps; ++step, time += dt) {
-    if (!schedule.due(step, time)) continue;
+    if (!schedule.is_scheduled(step, time)) continue;
     schedule.done(time);
     ++found;
   }
@@ -25,43 +25,43 @@ TEST(Schedule, NothingIsDueUnlessEnabled) {
 
 TEST(Schedule, FrequencyCountsStepsFromTheFirst) {
   const Schedule schedule(true, 3, std::nullopt, 0);
-  for (int step = 0; step < 20; ++step) EXPECT_EQ(schedule.due(step, 1e-7 * step), step % 3 == 0) << step;
+  for (int step = 0; step < 20; ++step) EXPECT_EQ(schedule.is_scheduled(step, 1e-7 * step), step % 3 == 0) << step;
   EXPECT_EQ(count(schedule, 0, 1e-7, 9), 4);
 }
 
 TEST(Schedule, AskingTwiceChangesNothing) {
   const Schedule schedule(true, std::nullopt, 1.0, 0);
-  EXPECT_TRUE(schedule.due(0, 0));
-  EXPECT_TRUE(schedule.due(0, 0));
+  EXPECT_TRUE(schedule.is_scheduled(0, 0));
+  EXPECT_TRUE(schedule.is_scheduled(0, 0));
 }
 
 TEST(Schedule, IntervalIsDueOnceInEach) {
   Schedule schedule(true, std::nullopt, 1.0, 0);
-  EXPECT_TRUE(schedule.due(0, 0));
+  EXPECT_TRUE(schedule.is_scheduled(0, 0));
   schedule.done(0);
-  EXPECT_FALSE(schedule.due(1, 0.25));
-  EXPECT_FALSE(schedule.due(3, 0.99));
-  EXPECT_TRUE(schedule.due(4, 1.1));
+  EXPECT_FALSE(schedule.is_scheduled(1, 0.25));
+  EXPECT_FALSE(schedule.is_scheduled(3, 0.99));
+  EXPECT_TRUE(schedule.is_scheduled(4, 1.1));
   schedule.done(1.1);
-  EXPECT_FALSE(schedule.due(5, 1.99));
-  EXPECT_TRUE(schedule.due(6, 2.0));  // multiples of the interval, not an interval after the last
+  EXPECT_FALSE(schedule.is_scheduled(5, 1.99));
+  EXPECT_TRUE(schedule.is_scheduled(6, 2.0));  // multiples of the interval, not an interval after the last
 }
 
 TEST(Schedule, IntervalsThatAStepJumpsOverAreNotMadeUpFor) {
   Schedule schedule(true, std::nullopt, 1.0, 0);
   schedule.done(0);
-  EXPECT_TRUE(schedule.due(1, 3.5));
+  EXPECT_TRUE(schedule.is_scheduled(1, 3.5));
   schedule.done(3.5);
-  EXPECT_FALSE(schedule.due(2, 3.9));
-  EXPECT_TRUE(schedule.due(3, 4.0));
+  EXPECT_FALSE(schedule.is_scheduled(2, 3.9));
+  EXPECT_TRUE(schedule.is_scheduled(3, 4.0));
 }
 
 TEST(Schedule, IntervalsStartAtTheInitialTime) {
   Schedule schedule(true, std::nullopt, 1.0, 0.3);
-  EXPECT_TRUE(schedule.due(0, 0.3));
+  EXPECT_TRUE(schedule.is_scheduled(0, 0.3));
   schedule.done(0.3);
-  EXPECT_FALSE(schedule.due(1, 1.0));
-  EXPECT_TRUE(schedule.due(2, 1.3));
+  EXPECT_FALSE(schedule.is_scheduled(1, 1.0));
+  EXPECT_TRUE(schedule.is_scheduled(2, 1.3));
 }
 
 // Ten steps of 0.1 add up to a little less than 1, other sums to a little more: no interval may be lost or found twice.
@@ -95,13 +95,13 @@ TEST(Schedule, OutputThatIsDueAtACheckpointStaysDueUnderAnotherSchedule) {
     for (const Schedule& now : {at_interval(2), at_interval(1), at_interval(4), at_interval(3), every(4), every(3)}) {
       before.done(2);
       Schedule schedule = restored(before, now, 4, 4);
-      EXPECT_TRUE(schedule.due(4, 4));
+      EXPECT_TRUE(schedule.is_scheduled(4, 4));
       schedule.done(4);
-      EXPECT_FALSE(schedule.due(5, 4.5));
+      EXPECT_FALSE(schedule.is_scheduled(5, 4.5));
     }
     before.done(4);
-    EXPECT_FALSE(restored(before, at_interval(3), 5, 5).due(5, 5));
-    EXPECT_TRUE(restored(before, at_interval(3), 5, 5).due(6, 6));
+    EXPECT_FALSE(restored(before, at_interval(3), 5, 5).is_scheduled(5, 5));
+    EXPECT_TRUE(restored(before, at_interval(3), 5, 5).is_scheduled(6, 6));
   }
 }
 

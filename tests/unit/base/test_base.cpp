@@ -180,9 +180,10 @@ TEST(Function, KnowsWhetherItDependsOnTime) {
 
 TEST(Function, KnowsWhetherItDependsOnThePlace) {
   for (const char* text : {"x", "2*y*t", "value = 0; if (z > 1) { value = 1; }"}) {
-    EXPECT_TRUE(Function::parse(text).depends_on_place()) << text;
+    EXPECT_TRUE(Function::parse(text).depends_on_position()) << text;
   }
-  for (const char* text : {"3", "exp(-t)", "value = t"}) EXPECT_FALSE(Function::parse(text).depends_on_place()) << text;
+  for (const char* text : {"3", "exp(-t)", "value = t"})
+    EXPECT_FALSE(Function::parse(text).depends_on_position()) << text;
 }
 
 // expressions.txt: "value | text" or "error | text"; the tools in Python are tested by the same lines.

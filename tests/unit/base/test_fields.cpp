@@ -16,15 +16,15 @@ struct Record {
 // As a member of some state would: each field is one declaration.
 struct State {
   FieldSet fields;
-  PointField<Vector> velocity = fields.of_points<Vector>({.name = "velocity", .kept = true});
+  PointField<Vector> velocity = fields.of_points<Vector>({.name = "velocity", .persistent = true});
   PointField<double> transient = fields.of_points<double>({.name = "transient"});
-  PointField<std::uint8_t> mark = fields.of_points<std::uint8_t>({.name = "mark", .kept = true}, When::if_used);
+  PointField<std::uint8_t> mark = fields.of_points<std::uint8_t>({.name = "mark", .persistent = true}, When::if_used);
   PointField<Record> records = fields.add<std::vector<Record>>(
-      At::integration_point, {{.name = "first", .width = 1}, {.name = "second", .kept = true, .width = 1}});
+      At::integration_point, {{.name = "first", .width = 1}, {.name = "second", .persistent = true, .width = 1}});
 };
 
 // Integration points of two points, the places of which are not in the order of the points.
-const Places two_a_point{2, [](std::size_t k, int q) { return 2 * (1 - k) + static_cast<std::size_t>(q); }};
+const FieldIndices two_a_point{2, [](std::size_t k, int q) { return 2 * (1 - k) + static_cast<std::size_t>(q); }};
 
 State filled() {
   State state;

@@ -109,7 +109,7 @@ TEST(Deck, ReadsMetalsThatHeat) {
   const Deck deck = folder.read(hot_deck(softening + heating, warm));
   const auto& metal = std::get<materials::ThermalJ2>(deck.materials[0].law);
   EXPECT_EQ(metal.heating.capacity, 8960 * 383.0);
-  EXPECT_EQ(metal.heating.plastic_share, 0.9);
+  EXPECT_EQ(metal.heating.taylor_quinney, 0.9);
   const auto& flow = std::get<materials::SoftenedFlow>(metal.flow);
   EXPECT_EQ(flow.cold.yield_stress, 50e6);
   const auto& theta = std::get<materials::JohnsonCookSoftening>(flow.softening);

@@ -118,20 +118,20 @@ class Scene {
     return rub(coefficient);
   }
 
-  // The largest difference of the friction of a trial that sticks, all along `ways`, from what the tangent makes of
-  // them, and the largest friction, N.
+  // The largest difference of the friction of a trial that sticks, all along `displacements`, from what the tangent
+  // makes of them, and the largest friction, N.
   std::pair<double, double> sticking(double size) {
-    std::vector<Vector> ways(domain_.owned), friction, with(domain_.owned, Vector::Zero()), without = with,
-                                                                                            forces = with;
+    std::vector<Vector> displacements(domain_.owned), friction, with(domain_.owned, Vector::Zero()), without = with,
+                                                                                                     forces = with;
     for (int i = 0; i < domain_.owned; ++i) {
       const double x = static_cast<double>(domain_.id(i));
-      ways[i] = size * Vector(std::sin(x), std::cos(3 * x), std::sin(7 * x));
+      displacements[i] = size * Vector(std::sin(x), std::cos(3 * x), std::sin(7 * x));
     }
-    surfaces_->add_stiffness(pairs_, ways, without);
+    surfaces_->add_stiffness(pairs_, displacements, without);
     Couples none;
-    surfaces_->add_friction({domain_, velocities_, densities_}, {.of = ways, .is_trial = true}, law_, 1e3, pairs_, none,
-                            forces, friction);
-    surfaces_->add_stiffness(pairs_, ways, with);
+    surfaces_->add_friction({domain_, velocities_, densities_}, {.of = displacements, .is_trial = true}, law_, 1e3,
+                            pairs_, none, forces, friction);
+    surfaces_->add_stiffness(pairs_, displacements, with);
     double largest = 0, difference = 0;
     for (int i = 0; i < domain_.owned; ++i) {
       const Vector force = forces[i] * domain_.volume(i);

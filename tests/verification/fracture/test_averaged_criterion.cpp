@@ -28,12 +28,12 @@ void set_indicators(Body& body, const std::function<double(const Vector& X)>& va
   MaterialBlock& block = body.blocks[0];
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     const double here = value(body.domain.reference(block.points[k]));
-    for (int q = 0; q < block.points_per_cell(); ++q) block.state->at(block.place(k, q), number) = here;
+    for (int q = 0; q < block.points_per_cell(); ++q) block.state->at(block.index(k, q), number) = here;
   }
 }
 
 double indicator(const Body& body, std::size_t k, int q = 0) {
-  return body.blocks[0].state->at(body.blocks[0].place(k, q), number);
+  return body.blocks[0].state->at(body.blocks[0].index(k, q), number);
 }
 
 struct Kind {
@@ -150,14 +150,14 @@ TEST(AveragedCriterion, LeavesOtherBlocks) {
     const auto own = [](std::size_t k, int q) { return 0.001 * static_cast<double>(k % 7) + 0.1 * q; };
     for (std::size_t k = 0; k < other.points.size(); ++k) {
       for (int q = 0; q < other.points_per_cell(); ++q)
-        other.state->at(other.place(static_cast<int>(k), q), number) = own(k, q);
+        other.state->at(other.index(static_cast<int>(k), q), number) = own(k, q);
     }
     AveragedCriterion averaged(body);
     set_indicators(body, [](const Vector& X) { return X[0] < 5 * spacing ? 0.5 : 0.0; });
     averaged.average(body);
     for (std::size_t k = 0; k < other.points.size(); ++k) {
       for (int q = 0; q < other.points_per_cell(); ++q)
-        EXPECT_EQ(other.state->at(other.place(static_cast<int>(k), q), number), own(k, q));
+        EXPECT_EQ(other.state->at(other.index(static_cast<int>(k), q), number), own(k, q));
     }
   }
 }

@@ -34,10 +34,10 @@ void set_stress(Body& body, const Mean& mean) {
   MaterialBlock& block = body.blocks[0];
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     for (int q = 0; q < 4; ++q) {
-      MaterialPoint point = block.cells[block.place(k, q)];
+      MaterialPoint point = block.cells[block.index(k, q)];
       point.stress << 0, 0, 0, 3e8, 0, 0;
       point.stress.head<3>().setConstant(mean(body.domain.reference(block.points[k])));
-      block.cells->set(block.place(k, q), point);
+      block.cells->set(block.index(k, q), point);
     }
   }
 }
@@ -48,15 +48,15 @@ void flow(Body& body, FittedCriterion& fitted, double given) {
   fitted.start(body);
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     for (int q = 0; q < 4; ++q) {
-      block.state->at(block.place(k, q), strain) += 0.01;
-      block.state->at(block.place(k, q), indicator) += given;
+      block.state->at(block.index(k, q), strain) += 0.01;
+      block.state->at(block.index(k, q), indicator) += given;
     }
   }
   fitted.finish(body);
 }
 
 double indicator_of(const Body& body, std::size_t k) {
-  return body.blocks[0].state->at(body.blocks[0].place(k, 3), indicator);
+  return body.blocks[0].state->at(body.blocks[0].index(k, 3), indicator);
 }
 
 const materials::JohnsonCookFailure steep{{-0.77, 1.45, -0.47, 0, 0}};
@@ -107,7 +107,7 @@ TEST(FittedCriterion, LeavesWhatHasFailedAndOtherCriteria) {
   FittedCriterion fitted(body);
   flow(body, fitted, 0);
   MaterialBlock& block = body.blocks[0];
-  for (std::size_t k = 0; k < block.points.size(); ++k) block.state->at(block.place(k, 3), indicator) = 1.5;
+  for (std::size_t k = 0; k < block.points.size(); ++k) block.state->at(block.index(k, 3), indicator) = 1.5;
   flow(body, fitted, 0.25);
   for (std::size_t k = 0; k < block.points.size(); ++k) EXPECT_EQ(indicator_of(body, k), 1.75);
   Body other = body_of(materials::FailureStrain{0.1}, world);

@@ -643,7 +643,7 @@ class SlowCrack {
       if (above < 0 || above > h || X[0] < notch) continue;
       const int places = block.points_per_cell();
       for (int q = 0; q < places; ++q) {
-        sum += block.state_of<materials::Brittle>(block.place(k, q)).damage / places;
+        sum += block.state_of<materials::Brittle>(block.index(k, q)).damage / places;
       }
     }
     return h * body_.domain.communicator.sum(sum) / layers_;

@@ -172,7 +172,7 @@ struct Strip : Loaded {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       double left = 0, work = 0;
       for (int q = 0; q < 4; ++q) {
-        const auto state = block.state_of<materials::Brittle>(block.place(static_cast<int>(k), q));
+        const auto state = block.state_of<materials::Brittle>(block.index(static_cast<int>(k), q));
         left = std::max(left, 1 - state.damage), work += state.dissipated / 4;
       }
       if (left < 1.01e-3) all.push_back(work * body.domain.volume(block.points[k]));

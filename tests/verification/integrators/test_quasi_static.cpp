@@ -110,8 +110,8 @@ TEST(QuadraticTangent, IsThatOfThePointsThatHold) {
   for (const MaterialBlock& block : loaded.body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       double failed = 0;
-      for (int q = 0; q < 4; ++q) failed += block.state_of<Foam>(block.place(k, q)).failed;
-      partly += block.state_of<Foam>(block.place(k, 0)).failed > 0 && failed < 4 ? 1 : 0;
+      for (int q = 0; q < 4; ++q) failed += block.state_of<Foam>(block.index(k, q)).failed;
+      partly += block.state_of<Foam>(block.index(k, 0)).failed > 0 && failed < 4 ? 1 : 0;
     }
   }
   EXPECT_GT(loaded.world.sum(partly), 0);

@@ -84,13 +84,13 @@ TEST(Quadratic, TheGradientInACellFollowsAQuadraticMotion) {
       const Vector X = body.domain.reference(b.points[k]);
       if (!is_deep(spec, X, 1)) continue;
       const Tensor mean =
-          0.25 * (b.cells[b.place(k, 0)].deformation_gradient + b.cells[b.place(k, 1)].deformation_gradient +
-                  b.cells[b.place(k, 2)].deformation_gradient + b.cells[b.place(k, 3)].deformation_gradient);
+          0.25 * (b.cells[b.index(k, 0)].deformation_gradient + b.cells[b.index(k, 1)].deformation_gradient +
+                  b.cells[b.index(k, 2)].deformation_gradient + b.cells[b.index(k, 3)].deformation_gradient);
       Tensor F = Tensor::Identity();
       F(0, 0) += bend * X[2], F(0, 2) += bend * X[0], F(1, 1) += bend * X[1], F(2, 0) -= bend * X[0];
       EXPECT_LT((mean - F).norm(), 1e-9 * across);
       const Vector place = Vector::Constant(spec.spacing / std::sqrt(12.0));
-      const Tensor change = b.cells[b.place(k, 0)].deformation_gradient - F;
+      const Tensor change = b.cells[b.index(k, 0)].deformation_gradient - F;
       EXPECT_NEAR(change(0, 0), bend * place[2], 1e-3 * across);
       EXPECT_NEAR(change(1, 1), bend * place[1], 1e-3 * across);
       EXPECT_NEAR(change(2, 0), -bend * place[0], 1e-3 * across);
@@ -177,7 +177,7 @@ MaterialBlock cell_of(double last) {
     MaterialPoint at;
     at.deformation_gradient += Tensor::NullaryExpr([&] { return number(engine); });
     if (q == 3) at.deformation_gradient.col(0) *= last;
-    block.cells->set(block.place(0, q), at);
+    block.cells->set(block.index(0, q), at);
   }
   return block;
 }
