@@ -31,7 +31,6 @@ constexpr Check checks[] = {
     filled_tools,
     thin_tools,
     apart_tools,
-    tools_across_sides,
     meeting_tools,
     overruled_motions,
     held_stretches,

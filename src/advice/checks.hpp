@@ -186,9 +186,6 @@ std::string filled_tools(const Situation& situation);
 // motion by loads and impacts is not considered.
 std::string apart_tools(const Situation& situation);
 
-// A warning for each tool that is across one periodic side at some time: it has no image at the other.
-std::string tools_across_sides(const Situation& situation);
-
 // A warning for every two tools, one of them with a mass, that meet by their paths and initial velocities
 // before a point stops one: tools do not interact.
 std::string meeting_tools(const Situation& situation);
