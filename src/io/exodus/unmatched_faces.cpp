@@ -17,10 +17,9 @@ namespace {
 
 // A corner of a face, as it travels to the rank that compares the faces at this node.
 struct FaceCorner {
-  std::int64_t node;  // its index in the file
-  // Of the face: unit; unit, from the corner to the face's middle and along its edges to the next and last corner; m;
-  // m.
-  double normal[3], inward[3], next[3], last[3], middle[3], size;
+  std::int64_t node;                   // its index in the file
+  double inward[3], next[3], last[3];  // unit, from it: to the face's middle, and along its edges
+  double normal[3], middle[3], size;   // of the face: unit, m, m
   int block;
 };
 
@@ -81,7 +80,7 @@ std::vector<int> blocks_over(const std::vector<FaceCorner>& corners) {
     const auto end = std::find_if(begin, order.end(), [&](std::size_t k) { return node(k) != node(*begin); });
     for (auto one = begin; one != end; ++one) {
       for (auto other = begin; other != end; ++other) {
-        if (lie_over(corners[*one], corners[*other])) over[*one] = corners[*other].block;
+        if (lie_over(corners[*one], corners[*other])) over[*one] = std::max(over[*one], corners[*other].block);
       }
     }
     begin = end;
@@ -164,7 +163,7 @@ std::vector<UnmatchedFaces> unmatched_faces(const MeshSource* mesh, const Commun
     const auto known = [](int block) { return block >= 0; };
     // The two sides of a crack, too, may have other faces, but with one common edge only.
     if (std::count_if(corner, end, known) > 2)
-      pairs.add(blocks[face.element], *std::find_if(corner, end, known), slice.elements[face.element] + 1);
+      pairs.add(blocks[face.element], *std::max_element(corner, end), slice.elements[face.element] + 1);
     corner = end;
   }
   return pairs.found(communicator);
