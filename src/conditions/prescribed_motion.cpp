@@ -12,7 +12,7 @@ namespace {
 // Component c of the velocity that moves point i along the motion in its next step.
 double imposed_velocity(const PrescribedMotion& motion, int c, int i, const VelocityUpdate& update) {
   const Body& body = update.body;
-  const auto value = [&](double time) { return motion.value(body.domain.reference(i), time); };
+  const auto value = [&](double time) { return update.steps.value(motion.value, body.domain.reference(i), time); };
   const double dt = update.steps.of(i);
   if (motion.is_velocity) return update.steps.velocity_after(value, update.t, dt);
   const double target = body.domain.reference(i)[c] + update.steps.after(value, update.t, dt);
