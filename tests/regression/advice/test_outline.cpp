@@ -485,6 +485,12 @@ TEST(Tools, ThatAreApartFromAllPointsAreToldOf) {
               {"before about t = 1.97e-05 s"});
   EXPECT_EQ(told_of_tool("Rigid Plane", key("Point", "0 0 0") + key("Normal", "0 0 1")).find("the tool"),
             std::string::npos);
+  // It hammers a hundred times, 0.05 mm deep or short of the bar.
+  const auto hammers = [&](const std::string& by) {
+    return told_of_tool("Rigid Plane", floor + key("Travel Z", by + "*sin(3.14159265358979*t/4.7e-7)^2"), "", "4.7e-5");
+  };
+  expect_told(hammers("2.05e-3"), {"before about t = "});
+  expect_told(hammers("1.95e-3"), {"WARNING: the tool 'tool' is 0.002 m", "touches nothing until the end"});
   const std::string later = told_of_tool(
       "Rigid Plane", floor, along("push", "Prescribed Velocity", "top", "z", "t > 1e-5 ? -100 : 0"), "4.7e-5");
   expect_told(later, {"until the end: only loads, impacts and motions that change later may bring them together"});
