@@ -178,7 +178,7 @@ class Outputs {
     if (had_numbers) want_history(section);
     if (had_numbers && variables->parameters.empty()) return;
     drop_range(section);
-    if (!fields_.empty()) return join(section, *variables);
+    if (!fields_.empty()) return join(section, variables ? *variables : List{.name = "Output Variables"});
     fields_ = section.name;
     section.name = "Output";
     deck_.lists.push_back(section);
@@ -198,7 +198,8 @@ class Outputs {
     List& first = *find_list(deck_, "Output");
     problems_.note(section.name, "writes no file of its own: its fields go into that of " + fields_ + ", '" +
                                      value_of(first, "Output Filename") + "'");
-    List& fields = *find_list(first, "Output Variables");
+    if (!find_list(first, variables.name)) first.lists.push_back({.name = variables.name});
+    List& fields = *find_list(first, variables.name);
     for (const Parameter& one : variables.parameters) {
       if (!find_parameter(fields, one.name)) fields.parameters.push_back(one);
     }

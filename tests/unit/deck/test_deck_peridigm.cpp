@@ -226,6 +226,16 @@ TEST(DeckOfPeridigm, OutputsBecomeFieldsAndHistory) {
   }
 }
 
+TEST(DeckOfPeridigm, OutputsWithoutVariablesTakeThoseOfOthers) {
+  const DeckFolder folder;
+  const std::string none = list("Output", key("Output Filename", "string", "bar"));
+  for (const std::string& outputs :
+       {none + output("Output2", "10", {"Displacement"}), output("Output1", "10", {"Displacement"}) + none}) {
+    const Deck deck = with(folder, R"(<ParameterList name="Solver">)", outputs + R"(<ParameterList name="Solver">)");
+    EXPECT_EQ(deck.output.variables, std::vector<std::string>{"Displacement"});
+  }
+}
+
 TEST(DeckOfPeridigm, KeysWithoutEffectAreTold) {
   const DeckFolder folder;
   const Deck deck = folder.read(full_deck);
