@@ -19,7 +19,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 def fail(text):
     """Ends the tool with one line that names it, and status 1."""
-    sys.exit(f"tools/{os.path.basename(sys.argv[0])}: {text}")
+    name = os.path.basename(sys.argv[0])
+    sys.exit(f"{'' if name.startswith('strut') else 'tools/'}{name}: {text}")
 
 
 def run(main):

@@ -12,10 +12,10 @@ class Sample:
     filled cells count as prisms, and the box ends where the material does: whole cells may extend beyond it."""
 
     def __init__(self, mesh):
-        parts, box = extent.of_blocks(mesh, None, extent.cells_of), extent.box_in(mesh, None)
+        parts, box = extent.elements_of(mesh), extent.box_in(mesh, None)
         if not parts:
             fail(f"{mesh}: expected hexahedra or tetrahedra, which tell the faces of a box; it has none, also others, or is damaged")
-        self.edges, self.places, self.halves = (np.concatenate(found) for found in zip(*parts))
+        self.edges, self.places, self.halves = (np.concatenate(found) for found in zip(*((p.high - p.low, p.middle, p.half) for p in parts)))
         self.low, self.high = box
         try:
             with opened(mesh) as file:
