@@ -47,7 +47,7 @@ double integral_in(std::istream& words) {
   const double from = number_in(words), to = number_in(words);
   const strut::Function value = strut::Function::parse(expression_in(words));
   if (value.depends_on_position()) throw strut::Error(no_position);
-  return strut::time_integral(value, strut::Vector::Zero(), from, to, strut::numbers_in(value.text()));
+  return strut::time_integral(value, strut::Vector::Zero(), from, to);
 }
 
 double answer_to(const std::string& line) {
