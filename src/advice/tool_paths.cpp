@@ -35,7 +35,7 @@ double smallest_gap(const RigidTool& tool, const Body& body, const std::vector<V
   double smallest = std::numeric_limits<double>::infinity();
   for (const int i : tool.points) {
     const Vector place = body.current(i) + after * velocities[i] - offset;
-    smallest = std::min(smallest, tool.met_by(i, tool.shape, place).gap);
+    smallest = std::min(smallest, tool.met_by(i, tool.shape, tool.nearest_image(body.domain, place)).gap);
   }
   return body.domain.communicator.min(smallest);
 }
@@ -174,27 +174,6 @@ Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, 
   return {};
 }
 
-// The extent of a tool along an axis without its travel, m; empty if it is infinite along the axis.
-using Range = Eigen::AlignedBox<double, 1>;
-Range range_along(const HalfSpace&, int) { return {}; }
-Range range_along(const Box& box, int axis) { return Range(box.lower.segment<1>(axis), box.upper.segment<1>(axis)); }
-Range range_along(const Cylinder& roll, int axis) {
-  if (std::abs(roll.axis[axis]) > as_good_as_none) return {};
-  const Eigen::Matrix<double, 1, 1> middle = roll.point.segment<1>(axis), radius(roll.radius);
-  return Range(middle - radius, middle + radius);
-}
-
-// True if a tool is across one of two sides at some time, but not across both.
-bool is_across_a_side(const RigidTool& tool, const PeriodicSides& sides, double start, double duration) {
-  const Range at_rest = std::visit([&](const auto& shape) { return range_along(shape, sides.axis); }, tool.shape);
-  for (int k = 0; k <= samples && !at_rest.isEmpty(); ++k) {
-    const double offset = tool.offset(start + duration * k / samples)[sides.axis];
-    const double lower = at_rest.min()[0] + offset, upper = at_rest.max()[0] + offset;
-    if ((lower < sides.lower) != (upper > sides.upper)) return true;
-  }
-  return false;
-}
-
 bool meets_block(const RigidTool& tool, int block, const Domain& domain) {
   const bool any =
       std::any_of(tool.points.begin(), tool.points.end(), [&](int i) { return domain.cloud.blocks[i] == block; });
@@ -255,23 +234,6 @@ std::string apart_tools(const Situation& situation) {
   return text.str();
 }
 
-std::string tools_across_sides(const Situation& situation) {
-  const Scene& scene = situation.scene;
-  const std::vector<RigidTool> tools = tools_of(scene.conditions);
-  std::ostringstream text;
-  for (const deck::Condition& condition : situation.deck.conditions) {
-    const auto* sides = std::get_if<PeriodicSides>(&condition.kind);
-    for (std::size_t n = 0; sides && n < tools.size(); ++n) {
-      if (!is_across_a_side(tools[n], *sides, situation.start, situation.duration)) continue;
-      text << "WARNING: the tool '" << scene.tools[n].name << "' is across one of the periodic sides '"
-           << condition.name << "', at " << sides->lower << " and " << sides->upper
-           << " m, at some time: tools have no images, so that it misses the points that come in through the other "
-              "side; expected a tool between the sides, or across both\n";
-    }
-  }
-  return text.str();
-}
-
 std::string meeting_tools(const Situation& situation) {
   const Scene& scene = situation.scene;
   const double start = situation.start, duration = situation.duration;
@@ -289,14 +251,16 @@ std::string meeting_tools(const Situation& situation) {
   for (std::size_t n = 0; n < tools.size(); ++n) {
     for (std::size_t m = 0; m < n; ++m) {
       if (!may_meet(tools[m], tools[n]) || gap_between(tools[m], tools[n], start) < 0) continue;
-      const auto met = [&](int k) { return gap_between(tools[m], tools[n], start + duration * k / samples) < 0; };
-      const double until = std::min(stopped[m], stopped[n]);
-      int k = 1;
-      while (k <= samples && duration * k / samples <= until * (1 + as_good_as_none) && !met(k)) ++k;
-      if (k > samples || duration * k / samples > until * (1 + as_good_as_none)) continue;
+      std::vector<double> times = times_of_path(tools[m], start, duration);
+      std::ranges::copy(times_of_path(tools[n], start, duration), std::back_inserter(times));
+      std::ranges::sort(times);
+      const double until = start + std::min(stopped[m], stopped[n]) * (1 + as_good_as_none);
+      const auto met = [&](double time) { return gap_between(tools[m], tools[n], time) < 0; };
+      const auto first = std::ranges::find_if(times, [&](double time) { return time > until || met(time); });
+      if (first == times.end() || *first > until) continue;
       text
           << "WARNING: the tools '" << scene.tools[m].name << "' and '" << scene.tools[n].name
-          << "' meet by about t = " << start + duration * k / samples
+          << "' meet by about t = " << *first
           << " s, by their paths and the velocities of the start, and pass through each other: tools stop points only; "
              "expected material between them, or an end before (Final Time)\n";
     }

@@ -82,6 +82,28 @@ std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end) {
   return jumps;
 }
 
+// By ternary search, and by its growth toward this time: a root's inverse grows by a factor of 32.
+std::optional<double> pole_of(const OfTime& of_time, double start, double end) {
+  constexpr double nearer = 1024, growth = 64;
+  const double apart = (end - start) / samples_in_a_run;
+  const auto size = [&of_time](double t) { return std::abs(of_time(t)); };
+  double highest = start;
+  for (int k = 1; k <= samples_in_a_run; ++k) {
+    if (size(start + k * apart) > size(highest)) highest = start + k * apart;
+  }
+  double from = std::max(start, highest - apart), to = std::min(end, highest + apart);
+  for (int n = 0; n < 2 * halvings; ++n) {
+    const double low = from + (to - from) / 3, high = to - (to - from) / 3;
+    (size(low) < size(high) ? from : to) = size(low) < size(high) ? low : high;
+  }
+  const double at = 0.5 * (from + to);
+  const double near = std::max(1e-6 * apart, 1e7 * std::numeric_limits<double>::epsilon() * std::abs(at));
+  const auto size_beside = [&](double away) { return std::fmax(size(at - away), size(at + away)); };
+  const double next_to_it = size_beside(near / nearer);
+  if (next_to_it > growth * size_beside(near) || std::isinf(next_to_it)) return at;
+  return std::nullopt;
+}
+
 Where where(const std::vector<int>& points, const Body& body) {
   Where all;
   for (const int i : points) {

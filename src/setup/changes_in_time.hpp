@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/math/function.hpp"
@@ -35,6 +36,10 @@ Jump largest_jump(const OfTime& of_time, const Steps& steps, double least);
 
 // The jumps of `of_time`, which is 0 before the start, by a tenth of its largest value or more, in order.
 std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end);
+
+// A time at which `of_time` goes to infinity so fast that no integral over it exists, near its largest sample; nullopt
+// without one.
+std::optional<double> pole_of(const OfTime& of_time, double start, double end);
 
 // The box of the points of a condition over all ranks, and their least spacing, m.
 struct Where {

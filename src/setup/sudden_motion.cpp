@@ -152,6 +152,23 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
   return reported.str();
 }
 
+void check_poles(const deck::Deck& deck, const PointsOfConditions& points, const Body& body, deck::Problems& problems) {
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    for (const Function& value : sampled_values(deck.conditions[c])) {
+      if (!value.depends_on_time()) continue;
+      std::optional<double> pole;
+      over_the_box(value, where(points[c], body), [&](const OfTime& of_time) {
+        if (!pole) pole = pole_of(of_time, deck.solver.initial_time, deck.solver.final_time);
+      });
+      if (!pole) continue;
+      std::ostringstream text;
+      text << value.path() << ": '" << value.text() << "' goes to infinity at t = " << *pole
+           << " s, so that it has no integral over time; expected a value that is finite throughout the run";
+      problems.add(text.str());
+    }
+  }
+}
+
 std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
   if (deck.solver.quasi_static) return "";
   const std::vector<double> times = wave_times(body);

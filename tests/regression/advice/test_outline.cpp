@@ -680,7 +680,7 @@ TEST(OblongCells, OfOrdinaryPointsSurfacesAndCracksAreToldOf) {
   expect_told(told(itself), {dilatation, surfaces});
 }
 
-TEST(OblongCells, OfTwoSizesAreToldOfWhereCracksTakeTheirConstants) {
+TEST(OblongCells, OfTwoSizesAreToldOfWhereCracksAndContactTakeTheirConstants) {
   const RunFolder folder;
   folder.write("points.txt",
                cubes(1, Vector::Zero(), 4, 4, 4, 1e-3) + cubes(1, Vector::Constant(20e-3), 4, 4, 4, 2e-3));
@@ -695,6 +695,19 @@ TEST(OblongCells, OfTwoSizesAreToldOfWhereCracksTakeTheirConstants) {
     EXPECT_EQ(all.find("its cells have edges of 0.001 to 0.002 m") != std::string::npos,
               energy == std::string("Fracture Energy"))
         << all;
+  }
+  parts.damage.clear();
+  parts.blocks =
+      section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "2.015"));
+  const std::string by_points =
+                        key("Contact Model", "Hertz") + key("Contact Radius", "1e-3") + key("Effective Modulus", "1e9"),
+                    sizes = "its cells have edges of 0.001 to 0.002 m, and its contact ";
+  for (const auto& [model, words] :
+       {std::pair(key("Contact Model", "Surface"), sizes + "by surfaces the constants of"),
+        {by_points, sizes + "one Contact Radius: the faces of some meet 0.001 m earlier"}}) {
+    parts.contact = section("Models", section("m", model)) +
+                    section("Interactions", section("Self Contact", key("Contact Model", "m")));
+    expect_told(described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world), {words});
   }
 }
 

@@ -82,5 +82,24 @@ TEST(ValueThatIsNoNumber, IsRefusedAtTheInitialTimeOfToolsToo) {
   EXPECT_NE(error.find("Boundary Conditions > tool > Travel Z: 'log(t)' is -inf"), std::string::npos) << error;
 }
 
+// A velocity or a load without an integral; one with an integral, and a steep one, are none.
+TEST(Value, ThatGoesToInfinityIsRefused) {
+  const auto error = [](const std::string& type, const std::string& value, bool slowly) {
+    return error_of(foot + along("a", type, "top", "z", value), slowly, "1");
+  };
+  for (const std::string value : {"1e-9/(t - 2.00123e-6)", "1e-3*tan(1e6*t)", "1e-18/(t - 2.00123e-6)^2"}) {
+    for (const bool slowly : {false, true}) {
+      const std::string found = error("Prescribed Velocity", value, slowly);
+      EXPECT_NE(found.find("Boundary Conditions > a > Value: '" + value + "' goes to infinity at t = "),
+                std::string::npos)
+          << value << found;
+    }
+    EXPECT_NE(error("Body Force", value, false).find("goes to infinity"), std::string::npos) << value;
+  }
+  for (const std::string value :
+       {"1e-6/sqrt(abs(t - 2.00123e-6))", "1e-3*exp(-(((t - 2.00123e-6)/3e-8)^2))", "1e-3*tan(1e5*t)"})
+    EXPECT_EQ(error("Prescribed Velocity", value, false), "") << value;
+}
+
 }  // namespace
 }  // namespace strut::regression
