@@ -355,6 +355,10 @@ class RigidTools(InFolder):
         x = t[-1]  # m z'' = -4 - 6 t; trapezoids of a velocity that is quadratic err by its bend: 1.5 dt² x/6
         np.testing.assert_allclose(tool.offset(x), [0, 0, -3 * x - x**2 - 0.5 * x**3], atol=0.26 * (x / 10)**2 * x)
         self.assertNotEqual(tool.offset(x)[2], -3 * x)
+        # A push between two rows has its impulse: v = -3 - 4e4 2e-5 / 2 after it.
+        (self.folder / "h.csv").write_text("# strut\nTime,Reaction_Z(punch)\n" + "\n".join(f"{x},0" for x in t) + "\n")
+        tool, = rigid.tools_of(str(deck_of(deck, {"punch": {**punch, "Force Z": "-4e4*(t < 2e-5)"}}, str(self.folder / "h.csv"))))
+        self.assertAlmostEqual((tool.offset(x)[2] - tool.offset(x / 2)[2]) / (0.5 * x), -3.4, 9)
         # Whether a run that starts from another one goes on with its steps is not known here.
         deck.write_text(deck.read_text().replace("><", '><ParameterList name="Start From"/><', 1))
         with contextlib.redirect_stdout(io.StringIO()) as said:
