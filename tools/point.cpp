@@ -226,6 +226,7 @@ int main(int argc, char** argv) {
     const Request request = parse(words);
     Runtime runtime(argc, argv);
     drive(request);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw Error("cannot write to standard output");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "strut-point: %s\n", error.what());
     return EXIT_FAILURE;

@@ -83,7 +83,9 @@ void History::open(const Body& body) {
   }
   for (const ContactComponent& contact : contacts_) columns.push_back({contact.name, unit(contact.is_instant)});
   if (rows_ && rows_->columns.empty()) rows_->columns = columns;  // as in the file, which other solvers go on with
-  if (!path_.empty()) file_.emplace(path_, body.domain.communicator, columns, before_, sum_, schedule.uncounted());
+  if (path_.empty()) return;
+  file_.emplace(path_, body.domain.communicator, columns, before_, sum_, schedule.uncounted());
+  if (rows_ && rows_->values.empty()) rows_->values = file_->rows();  // those before the checkpoint
 }
 
 // Contact forces on this rank, N; one per column.

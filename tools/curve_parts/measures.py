@@ -41,6 +41,23 @@ def loading(strain, stress):
     return strain[keep], stress[keep]
 
 
+def work(strain, stress, ends):
+    """∫ σ dε along loading(): the strains to which it goes, and its values. `ends`: of each row the strain itself, or, if its stress is
+    a mean, that at the end of the interval."""
+    e, s = loading(ends, stress)
+    return e, integral(e, s, loading(ends, strain)[1] != e)
+
+
+def integral(strain, stress, is_mean):
+    """∫ σ dε up to each row, whose stress is that at its strain, or a mean since the row before it."""
+    return np.cumsum(np.where(is_mean, stress, midway(stress)) * np.diff(strain, prepend=strain[0]))
+
+
+def midway(values):
+    """Those between each row and the one before it."""
+    return 0.5 * (values + np.concatenate([values[:1], values[:-1]]))
+
+
 def mean_between(strain, stress, low, high):
     """∫ σ dε / ∫ dε with interpolated bounds: the mean at equal intervals of strain. None beyond the curve."""
     if len(strain) < 2 or strain[0] > low or strain[-1] < high:
@@ -106,10 +123,9 @@ def elastic_gradient(strain, stress, scale):
     return best and best[1:]
 
 
-def densification(strain, stress):
-    """The strain of the largest efficiency ∫ σ dε / σ, the last of equal ones, and the efficiency there; None if it is
+def densification(strain, stress, W):
+    """The strain of the largest efficiency W / σ, W = ∫ σ dε, the last of equal ones, and the efficiency there; None if it is
     largest at the end, where it may still rise."""
-    W = cumulative_trapezoid(stress, strain, initial=0)
     with np.errstate(divide="ignore", invalid="ignore"):
         efficiency = np.where(stress > 0, W / stress, 0)
     # Only beyond the first rise: before it the stress is almost zero, and the efficiency meaningless.
@@ -126,16 +142,18 @@ def apart(strain, stress, other, low, high):
     return differences / both if both else 0.0
 
 
-def of_curve(strain, stress, other=None):
+def of_curve(strain, stress, other=None, ends=None):
     """All measures of a curve, with or without unloading loops; `other`: the stress at the other end. Where both differ
-    too much there is no equilibrium, and no measure of the material."""
+    too much there is no equilibrium, and no measure of the material. `ends` as in work()."""
     strain, stress = np.asarray(strain, float), np.asarray(stress, float)
-    found = of_one_end(strain, stress)
+    ends = strain if ends is None else ends
+    found = of_one_end(strain, stress, ends)
     e, s = loading(strain, stress)
     o = None if other is None else loading(strain, np.asarray(other, float))[1]
     if o is not None:
         found = [in_equilibrium(m, e, s, o) for m in found]
-    return found + measures_of_ends(e, s, o)
+    dense = None if o is None else densification(e, 0.5 * (s + o), np.interp(e, *work(strain, 0.5 * (stress + other), ends)))
+    return found + measures_of_ends(e, s, o, dense)
 
 
 def in_equilibrium(measure, e, s, o):
@@ -148,12 +166,11 @@ def in_equilibrium(measure, e, s, o):
     return replace(measure, value=None, why=f"both ends differ by {100 * by:.2g} % there, more than {100 * MOST_APART:g} %: no equilibrium")
 
 
-def measures_of_ends(e, s, o):
-    """Stresses of both ends, in equilibrium or not."""
+def measures_of_ends(e, s, o, dense):
+    """Stresses of both ends, in equilibrium or not; `dense`: the densification of their mean."""
     low, high = PLATEAUS[""]
     one_end, ends = "the history has the force at one end only", f"the curve ends at a strain of {e[-1]:.3g}"
     there = e[-1] >= high and e[0] <= low
-    dense = None if o is None else densification(e, 0.5 * (s + o))
     between = f"from {100 * low:g} to {100 * high:g} % strain"
     return [
         Measure("mean_stress", mean_between(e, s, low, high), "Pa", f"mean {between} at the end of the curve, in equilibrium or not", ends),
@@ -167,8 +184,9 @@ def measures_of_ends(e, s, o):
     ]
 
 
-def of_one_end(strain, stress):
+def of_one_end(strain, stress, ends):
     e, s = loading(strain, stress)
+    W = work(strain, stress, ends)
     plateau = {key: mean_between(e, s, *between) for key, between in PLATEAUS.items()}
     known = plateau[""] or plateau["_20_40"]
     scale = known or float(s.max())
@@ -192,8 +210,8 @@ def of_one_end(strain, stress):
           for (key, (low, high)), value in zip(PLATEAUS.items(), plateau.values())],
         Measure("plateau_end", end, "1", "strain from which on the stress is above 1.3 times the plateau stress (ISO)",
                 "at its end the stress is not" if known else "there is no plateau stress", (PLATEAUS[""][0], end or 0)),
-        *energy_measures(e, s, end),
-        *densification_measures(e, s),
+        *energy_measures(e, s, end, W),
+        *densification_measures(e, s, np.interp(e, *W)),
         Measure("largest_strain", float(e[-1]), "1", "of the curve"),
         Measure("largest_stress", float(s.max()), "Pa", "of the curve"),
     ]
@@ -213,24 +231,22 @@ def offset_measures(e, s, rise, unloading):
     return found
 
 
-def energy_measures(e, s, end):
-    to = min(end if end is not None else ENERGY_TO, ENERGY_TO, float(e[-1]))
-    cut = e < to
-    e, s = np.concatenate([e[cut], [to]]), np.concatenate([s[cut], [np.interp(to, e, s)]])
-    W = float(cumulative_trapezoid(s, e, initial=0)[-1])
-    whole = to > e[0] and s.max() > 0
+def energy_measures(e, s, end, work):
+    to = min(end if end is not None else ENERGY_TO, ENERGY_TO, float(work[0][-1]))
+    largest, W = max(s[e < to].max(initial=0), float(np.interp(to, e, s))), float(np.interp(to, *work))
+    whole = to > e[0] and largest > 0
     return [
         Measure("energy_strain", to, "1", "to which energy is taken: the plateau's end, at most 50 % (ISO)"),
         Measure("absorbed_energy", W, "J/m3", "integral of stress over strain to there, per volume of the foam (ISO)", "", (0, to)),
-        Measure("absorption_efficiency", W / (float(s.max()) * (to - e[0])) if whole else None, "1",
+        Measure("absorption_efficiency", W / (largest * (to - e[0])) if whole else None, "1",
                 "that over the largest stress to there times the strain (ISO)", "", (0, to)),
     ]
 
 
-def densification_measures(e, s):
-    found = densification(e, s)
+def densification_measures(e, s, W):
+    found = densification(e, s, W)
     strain, efficiency = found or (None, None)
-    W = None if strain is None else float(np.interp(strain, e, cumulative_trapezoid(s, e, initial=0)))
+    W = None if strain is None else float(np.interp(strain, e, W))
     return [
         Measure("densification_strain", strain, "1", "where energy over stress is largest (Tan et al. 2005, Li et al. 2006)",
                 "it still rises at the end of the curve", (0, strain or 0)),

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import strut_tools
-from decks import box_of, value_at, value_in
-from scipy.integrate import cumulative_trapezoid
+from decks import box_of, integrals, value_at, value_in
 from strut_tools import Parser, fail, nearest
 
 from . import extent
@@ -127,27 +126,42 @@ def signed(values):
 
 
 def motion_of(deck, axis, times):
-    """{condition: its displacement along the axis at these times}, for conditions with a prescribed motion, and {tool: words on
-    where it begins}."""
-    letter, moves, begins = "xyz"[axis], {}, {}
+    """{condition: its displacement along the axis at these times}, for conditions with a prescribed motion, {tool: words on where it
+    begins}, and the names of those whose motion is not known."""
+    letter, moves, begins, unknown = "xyz"[axis], {}, {}, []
+    goes_on = deck.section("Start From") is not None
     for name, keys in deck.sections("Boundary Conditions").items():
         kind, value = value_in(keys, "Type"), value_in(keys, "Value")
-        if kind in ("Prescribed Displacement", "Prescribed Velocity") and letter in value_in(keys, "Coordinate"):
+        if kind == "Prescribed Velocity" and letter in value_in(keys, "Coordinate"):
+            way = integrals(value, times[0] if goes_on else initial_time(deck), times)
+        elif kind == "Prescribed Displacement" and letter in value_in(keys, "Coordinate"):
             way = [value_at(value, t) for t in times]
         elif kind and kind.startswith("Rigid ") and value_in(keys, f"Travel {letter.upper()}"):
             way = [value_at(value_in(keys, f"Travel {letter.upper()}"), t) for t in times]
         else:
             continue
-        if None in way:
+        if way is None or None in way:
+            unknown.append(name)
             continue
-        moves[name] = cumulative_trapezoid(way, times, initial=0) if kind == "Prescribed Velocity" else np.array(way)
+        moves[name] = np.array(way)
         if kind == "Prescribed Displacement":
             moves[name] = moves[name] - taken_off(deck, value)
-        elif kind == "Prescribed Velocity" and deck.section("Start From") is not None:
+        elif kind == "Prescribed Velocity" and goes_on:
             begins[name] = " since the start of this run (the strain before it, by Start From, is not counted)"
-        elif kind.startswith("Rigid ") and deck.section("Start From") is None:
+        elif kind.startswith("Rigid ") and not goes_on:
             moves[name], begins[name] = from_the_touch(moves[name], apart_at_first(deck, keys, axis, moves[name][0]))
-    return moves, begins
+    return moves, begins, unknown
+
+
+def initial_time(deck):
+    return strut_tools.number(deck.get("Solver", "Initial Time")) or 0
+
+
+def late_begin(deck, times):
+    """Words on a history that lacks the beginning of its run; None if it has it."""
+    if deck is None or deck.section("Start From") is not None or times[0] - initial_time(deck) <= 1e-9 * (times[-1] - times[0]):
+        return None
+    return f"begins at t = {times[0]:g} s, later than the run, at {initial_time(deck):g} s: the energy absorbed before is left out"
 
 
 def taken_off(deck, value):
@@ -157,7 +171,7 @@ def taken_off(deck, value):
     whole = deck.root.get("name") != "Peridigm" and deck.section("Solver", "Verlet") is None
     if whole or "Initial Displacement" in others or deck.section("Start From") is not None:
         return 0
-    start = strut_tools.number(deck.get("Solver", "Initial Time") or "0") or 0
+    start = initial_time(deck)
     first, later = value_at(value, start), value_at(value, start + 1)
     return 0 if first is None or first == later else first
 
@@ -188,15 +202,25 @@ def apart_at_first(deck, keys, axis, travel):
 def flat_tool(keys, axis):
     """From where to where a plane across the axis, or a box, reaches along it, m; None of other tools."""
     names = {"Rigid Plane": ("Point", "Normal"), "Rigid Box": ("Lower Corner", "Upper Corner")}.get(value_in(keys, "Type"), ())
-    numbers = [[strut_tools.number(word) for word in (value_in(keys, name) or "").split()] for name in names]
-    if not numbers or any(len(row) != 3 or None in row for row in numbers):
+    numbers = [numbers_in(keys, name) for name in names]
+    if not numbers or None in numbers:
         return None
     one, other = numbers
     if value_in(keys, "Type") == "Rigid Box":
         return one[axis], other[axis]
-    if abs(other[axis]) < (1 - 1e-6) * np.linalg.norm(other):
+    if not is_across(other, axis):
         return None
     return (one[axis], np.inf) if other[axis] < 0 else (-np.inf, one[axis])
+
+
+def numbers_in(keys, name):
+    """The three numbers of a key; None if it has others."""
+    row = [strut_tools.number(word) for word in (value_in(keys, name) or "").split()]
+    return None if len(row) != 3 or None in row else row
+
+
+def is_across(normal, axis):
+    return normal is not None and abs(normal[axis]) >= (1 - 1e-6) * np.linalg.norm(normal)
 
 
 def stretch_of_sides(deck, axis, times):
@@ -227,13 +251,14 @@ def shortening(deck, table, axis, words):
     means = [n for n in table if re.fullmatch(rf"Mean_Displacement_{letter}\([^ ]+\)", n)]
     if len(means) in (1, 2):
         return signed(table[means[0]] - (table[means[1]] if len(means) == 2 else 0)), " less ".join(means)
-    moves, begins = motion_of(deck, axis, times) if deck else ({}, {})
+    moves, begins, unknown = motion_of(deck, axis, times) if deck else ({}, {}, [])
     ways = list(moves.values())
     if any(np.ptp(way) > 0 for way in ways):  # a fixed rim gives no shortening
         pairs = list(itertools.combinations(ways, 2)) or [(ways[0], np.zeros(len(times)))]
         ends = max(pairs, key=lambda pair: np.abs(pair[0] - pair[1]).max())  # which may return to where they began
         named = ", ".join(f"`{name}`" + begins.get(name, "") for name in moves)
-        return signed(ends[0] - ends[1]), f"the motion of {named}"
+        left_out = f"; left out: {', '.join(f'`{name}`' for name in unknown)}, not a number of the time alone" if unknown else ""
+        return signed(ends[0] - ends[1]), f"the motion of {named}{left_out}"
     places = layers(table, axis, words.layers)
     if places is not None:
         apart = np.abs(places[0][:, -1] - places[0][:, 0])
@@ -250,8 +275,11 @@ def unstrained(deck, block, axis, height, how):
     if not how.startswith(("Mean_Displacement", "the motion")) or (deck and deck.get("Discretization", "Points") == "Nodes"):
         return None
     edge = extent.edge_of(deck and deck.file("Discretization", "Input Mesh File"), block, axis)
-    share = f", {100 * edge / height:.2g} % of the height in all" if edge else ""
-    return f"half a spacing at each end{share}: the outer points are the middles of cells, so that strain is too small by that, and stress too large"
+    planes = [keys for keys in deck.sections("Boundary Conditions").values() if value_in(keys, "Type") == "Symmetry Plane"] if deck else []
+    is_mirrored = " less " not in how and any(is_across(numbers_in(plane, "Normal"), axis) for plane in planes)
+    ends, where = (1, "at the end without a symmetry plane") if is_mirrored else (2, "at each end")
+    part = f", {50 * ends * edge / height:.3g} % of the height in all" if edge else ""
+    return f"half a spacing {where}{part}: the outer points are the middles of cells, so that strain is too small by that, and stress too large"
 
 
 def layers(table, axis, wanted=None):

@@ -7,7 +7,7 @@ import numpy as np
 from exodus import names_in
 from strut_tools import fail, nearest
 
-UNITS = {"Displacement": "m", "Velocity": "m/s", "Stress": "Pa", "Energy": "J", "Work": "J", "Distance": "m"}
+UNITS = {"Crack_Work": "J/m3", "Displacement": "m", "Velocity": "m/s", "Stress": "Pa", "Energy": "J", "Work": "J", "Distance": "m"}
 
 
 def unit_of(name):

@@ -2,7 +2,7 @@
 import itertools
 
 import numpy as np
-from decks import Deck, value_at, value_in
+from decks import Deck, integrals, value_at, value_in
 from scipy.integrate import cumulative_trapezoid
 from strut_tools import fail, history
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
@@ -21,6 +21,9 @@ class Tool:
         self.mass = self.number("Mass", None)
         self.flight = None
         if self.mass is not None:  # its path follows from the forces on it in the deck's history
+            if self.deck.section("Start From") is not None:
+                print(f"the tool '{name}' is drawn as it begins anew, where the deck has it: after Start From with the same conditions, whose steps "
+                      "go on, it is elsewhere")
             table = history(self.deck.get("History", "Filename", default="a History, which this tool needs,"))
             self.flight = table["Time"], [self._way(c, table["Time"], table) for c in "XYZ"]
 
@@ -56,7 +59,10 @@ class Tool:
         flown = np.maximum(times, self._start())
         impulse = -np.cumsum(table.get(column, np.zeros(len(times))) * np.diff(flown, prepend=flown[0]))
         if force:
-            impulse = impulse + cumulative_trapezoid([self._at(f"Force {c}", force, t) for t in times], flown, initial=0)
+            of_force = integrals(force, flown[0], flown)
+            if of_force is None:
+                fail(f"{self.deck.path}: Boundary Conditions > {self.name} > Force {c}: '{force}' has no integral over the time alone, or no finite one")
+            impulse = impulse + of_force
         return cumulative_trapezoid(speed + impulse / self.mass, flown, initial=0)
 
     def _start(self):

@@ -1,4 +1,5 @@
 // The C++ part of the Python module strut; strut/*.py build the interface for users on it.
+#include <mpi.h>
 #include <pybind11/iostream.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <iostream>
 #include <limits>
@@ -51,6 +53,21 @@ Communicator world() {
   const std::string problem = wrong_launcher(launch_of_process(), ranks.size(), "python3");
   if (!problem.empty()) throw Error(problem);
   return ranks;
+}
+
+// After an error that nothing has caught: ends the job, whose other ranks may wait for this one, unless all come here,
+// with the same error, in seconds.
+void end_job() {
+  int has_begun = 0, has_ended = 0, all_are_here = 0;
+  MPI_Initialized(&has_begun);
+  MPI_Finalized(&has_ended);
+  if (has_begun == 0 || has_ended != 0) return;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+  while (all_are_here == 0 && std::chrono::steady_clock::now() < end)
+    MPI_Test(&request, &all_are_here, MPI_STATUS_IGNORE);
+  if (all_are_here == 0) MPI_Abort(MPI_COMM_WORLD, 1);
 }
 
 // A deck, as lists of parameters, to nested dictionaries.
@@ -142,15 +159,19 @@ class Working {
 
 constexpr py::ssize_t bytes = sizeof(double);  // of a number
 
+// An array that a run does not read again.
+py::array read_only(py::array array) {
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
 // `rows` rows of `width` numbers, `stride` bytes apart; of a width of 1 a list.
 py::array view(const double* data, py::ssize_t rows, py::ssize_t width, py::ssize_t stride, const Body& body,
                const py::object& owner) {
   std::vector<py::ssize_t> shape{rows}, strides{stride};
   if (width > 1) shape.push_back(width), strides.push_back(bytes);
-  if (body.domain.communicator.size() > 1) return py::array_t<double>(shape, strides, data);
-  py::array_t<double> array(shape, strides, data, owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
+  if (body.domain.communicator.size() > 1) return read_only(py::array_t<double>(shape, strides, data));
+  return read_only(py::array_t<double>(shape, strides, data, owner));
 }
 
 template <class T>
@@ -166,7 +187,7 @@ py::array integers(const std::vector<int>& values, int width) {
 }
 
 // Takes the values over; one row for each `width` of them, or a list if that is 1.
-py::object array_of(std::vector<double> values, int width) {
+py::array array_of(std::vector<double> values, int width) {
   auto kept = std::make_unique<std::vector<double>>(std::move(values));
   const double* const data = kept->data();
   const py::ssize_t rows = std::ssize(*kept) / width;
@@ -325,7 +346,7 @@ py::object field(const py::object& owner, const std::string& name) {
   const Observable one = chosen(observables(run.body()), {name}, "fields").front();
   std::vector<double> values;
   one.fill(run.body(), values);
-  return array_of(std::move(values), one.components);
+  return read_only(array_of(std::move(values), one.components));
 }
 
 py::list blocks_of(PythonRun& run) {
@@ -372,6 +393,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("problems", &problems_of);
   module.def("rank", [] { return world().rank(); });
   module.def("any", [](bool mine) { return world().max(mine ? 1.0 : 0.0) > 0; });
+  module.def("end_job", &end_job);
   module.def("finish", [] { runtime.reset(); });
   module.def("set_threads", [](int count) {
     world();  // MPI says how many it allows

@@ -1,5 +1,6 @@
 """A deck (XML or YAML) and a mesh's recipe, read and changed key by key."""
 import functools
+import itertools
 import math
 import os
 import re
@@ -216,8 +217,12 @@ def evaluated(text, names):
     """The value of an expression of these {name: number}, possibly nan or infinite; throws NoExpression."""
     for name in set(names) - set("xyzt"):  # the language does not know these names
         text = re.sub(rf"(?<![\w.]){re.escape(name)}(?!\w|\s*\()", f"({float(names[name])!r})", text)
-    program, place = asked(), " ".join(repr(float(names.get(c, math.nan))) for c in "xyzt")
-    program.stdin.write(f"{place} {' '.join(text.split())}\n")
+    return answer(" ".join(repr(float(names.get(c, math.nan))) for c in "xyzt"), text)
+
+
+def answer(numbers, text):
+    program = asked()
+    program.stdin.write(f"{numbers} {' '.join(text.split())}\n")
     program.stdin.flush()
     answer = program.stdout.readline().strip()
     if answer.startswith("error") or not answer:
@@ -228,6 +233,15 @@ def evaluated(text, names):
 def value_at(expression, t):
     """A deck's expression of the time alone; None where it needs a place, or is no number."""
     return value_of(expression, {"t": t})
+
+
+def integrals(expression, begin, times):
+    """The integrals of a deck's expression of the time alone from a time to each of others, which rise, s; None as value_at()."""
+    try:
+        parts = [answer(f"integral {float(a)!r} {float(b)!r}", expression) for a, b in zip([begin, *times], times)]
+    except NoExpression:
+        return None
+    return list(itertools.accumulate(parts)) if all(map(math.isfinite, parts)) else None
 
 
 def value_of(expression, names):

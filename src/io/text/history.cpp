@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 
 #include "base/build_facts.hpp"
 #include "base/errors.hpp"
@@ -118,6 +119,20 @@ void HistoryFile::write(std::span<const double> row) {
     }
     write_line(line);
   });
+}
+
+std::vector<double> HistoryFile::rows() const {
+  std::vector<double> values;
+  run_on_root(communicator_, [&] {
+    std::ifstream file(path_);
+    std::string line, value;
+    for (int n = 0; std::getline(file, line); ++n) {
+      std::istringstream cells(n < 2 ? "" : line);  // after the units and the names
+      while (std::getline(cells, value, ',')) values.push_back(std::strtod(value.c_str(), nullptr));
+    }
+  });
+  communicator_.broadcast(values);
+  return values;
 }
 
 void HistoryFile::sync() const {

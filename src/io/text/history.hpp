@@ -41,6 +41,8 @@ class HistoryFile {
   // have one value per column, or if the disk is full.
   void write(std::span<const double> row);
 
+  std::vector<double> rows() const;  // collective: all values so far, row by row, on all ranks
+
   std::int64_t bytes() const { return bytes_; }  // written so far, on rank 0
   double sum() const { return sum_.value(); }    // their checksum
   void sync() const;                             // collective: forces the rows to the disk

@@ -56,6 +56,7 @@ for kind in (ZeroDivisionError, KeyboardInterrupt):
 run.advance()
 assert run.is_over
 fails(lambda: strut.run(block.deck(Discretization={"Type": "Memory"}, Solver={"Final Time": -1.0}), mesh), "Solver > Final Time")
+fails(lambda: strut.curve(run, smoth=3), "the tool failed on rank 0" if rank else "did you mean '--smooth'")
 everything = run.whole("Displacement")
 assert (everything is None) == (rank != 0)
 if rank == 0:  # fields have the same bits on any number of ranks; this is the run on one, by the program

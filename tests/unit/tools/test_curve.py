@@ -53,6 +53,15 @@ class Curves(unittest.TestCase):
         self.assertAlmostEqual(found["absorbed_energy"] / W, 1, 10)
         self.assertAlmostEqual(found["absorption_efficiency"], W / (YIELD * 0.5), 10)
 
+    def test_energy_of_means_is_their_work_however_few_they_are(self):
+        # Means over intervals times these are the work; the end of the loading and of the last interval are one.
+        strain = np.unique(np.append(np.linspace(0, 0.45, 10), YIELD / E))
+        W = np.where(strain < YIELD / E, 0.5 * E * strain**2, YIELD * (strain - 0.5 * YIELD / E))
+        means = np.append(0, np.diff(W) / np.diff(strain))
+        found = {m.name: m.value for m in measures.of_curve(measures.midway(strain), means, means, ends=strain)}
+        self.assertEqual(found["energy_strain"], 0.45)
+        self.assertAlmostEqual(found["absorbed_energy"] / W[-1], 1, 12)
+
     def test_densification_is_where_the_efficiency_is_largest(self):
         W = YIELD * (DENSE - 0.5 * YIELD / E)
         # A straight rise with K W > Y²: d/dx (W + Y x + K x²/2)/(Y + K x) is negative at once.
@@ -164,6 +173,12 @@ class Extents(InFolder):
             self.assertEqual(found and found[:len(expected)], expected)
             if found:
                 self.assertIn("strain is too small by that, and stress too large", found)
+        plane = ('<ParameterList name="Boundary Conditions"><ParameterList name="foot"><Parameter name="Type" value="Symmetry Plane"/>'
+                 '<Parameter name="Normal" value="%s"/></ParameterList></ParameterList></a>')
+        for normal, how, part in (("0 0 2", "the motion of `top`", "10"), ("1 0 0", "the motion of `top`", "20"),
+                                  ("0 0 2", "Mean_Displacement_Z(top) less Mean_Displacement_Z(foot)", "20")):
+            deck.write_text('<a><ParameterList name="Discretization"><Parameter name="Input Mesh File" value="m.g"/></ParameterList>' + plane % normal)
+            self.assertIn(f", {part} % of the height", source.unstrained(Deck(str(deck)), "foam", 2, 5, how))
         self.assertIn("half a spacing at each end: ", source.unstrained(None, None, 2, 5, "Mean_Displacement_Z(top)"))  # unknown
 
     def test_a_lattice_of_points_ends_half_a_step_of_each_axis_beyond_them(self):
@@ -339,6 +354,18 @@ class Runs(InFolder):
         how = {}
         self.assertIsNone(source.density_of_points(Deck(str(self.folder / "block.xml")), result, None, 36e-9, how))
         self.assertEqual(how, {"density": f"nowhere: {self.folder}/block.xml has none for block 'high'"})
+
+    def test_a_prescribed_velocity_shortens_by_its_integral_since_the_start_of_the_run(self):
+        deck = DECK.replace("Prescribed Displacement", "Prescribed Velocity").replace("-1e-2*t", "-1e-2*(t &lt; 0.51)")
+        side = ('<ParameterList name="side"><Parameter name="Type" type="string" value="Prescribed Velocity"/><Parameter name="Coordinate" '
+                'type="string" value="z"/><Parameter name="Value" type="string" value="x"/></ParameterList><ParameterList name="top">')
+        (self.folder / "block.xml").write_text(deck.replace('<ParameterList name="top">', side))
+        for times in np.linspace(0, 1, 11), np.linspace(0.2, 1, 5):  # the second history lacks the run's beginning
+            self.history({"Time": times, "Reaction_Z(top)": -times, "Reaction_Z(bottom)": times})
+            done = self.curve("block.xml")
+            self.assertIn("`top`; left out: `side`, not a number of the time alone\n", done.stdout)
+            self.assertEqual("begins at t = 0.2 s, later than the run, at 0 s" in done.stdout, times[0] > 0)
+            np.testing.assert_allclose([float(row[1]) for row in self.table("block-curve.csv")[1:]], 0.5 * np.minimum(times, 0.51), atol=1e-9)
 
     def test_where_a_tool_stands_at_the_start_is_no_strain(self):
         tool = DECK.replace("Prescribed Displacement", "Rigid Plane").replace('"Value"', '"Travel Z"')

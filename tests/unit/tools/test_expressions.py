@@ -5,7 +5,7 @@ import pathlib
 import unittest
 
 import tool_test  # noqa: F401
-from decks import NoExpression, evaluated, value_at, value_of
+from decks import NoExpression, evaluated, integrals, value_at, value_of
 
 TABLE = pathlib.Path(__file__).resolve().parents[1] / "base" / "expressions.txt"
 PLACE = {"x": 3.0, "y": 0.0, "z": 0.0, "t": 0.0}
@@ -48,6 +48,13 @@ class Expressions(unittest.TestCase):
         self.assertEqual([value_at("t < 1 ? 5 : 2*t", t) for t in (0.5, 3)], [5, 6])
         for none in ("x*t", "__import__('os')", "log(-t)"):
             self.assertIsNone(value_at(none, 3), none)
+
+    def test_integrals_over_the_time_are_the_program_s(self):
+        for text, begin, times, expected in (("-2*(t < 0.51)", 0, [0.5, 1], [-1, -1.02]), ("3", 1, [2], [3]), ("t*t", 0, [3], [9])):
+            for found, known in zip(integrals(text, begin, times), expected, strict=True):
+                self.assertAlmostEqual(found, known, 12)
+        for none in ("x*t", "log(-1 - t)"):
+            self.assertIsNone(integrals(none, 0, [1]), none)
 
     def test_of_the_names_of_a_study(self):
         self.assertAlmostEqual(value_of("0.3*50e6*density^1.5", {"density": 0.25}), 0.3 * 50e6 * 0.125)

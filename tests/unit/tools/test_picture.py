@@ -21,7 +21,7 @@ except ImportError as error:
     print(f"skipped: {error}")
     sys.exit(77)
 from decks import section
-from picture_parts.result import Result, clock_of
+from picture_parts.result import Result, clock_of, title
 from PIL import Image
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
@@ -219,6 +219,10 @@ class Pictures(InFolder):
         with unittest.mock.patch.object(history, "finished", lambda figure, panels, clock, out: len(panels)):
             return history.columns([str(self.folder / "a.csv")], names, "out.png")
 
+    def test_columns_have_their_units(self):
+        self.assertEqual([title(name) for name in ("Crack_Work", "Sum_Crack_Work(b)", "Plastic_Work", "Von_Mises_Stress", "Reaction_Z(top)", "Damage")],
+                         ["Crack Work, J/m3", "Sum Crack Work(b), J/m3", "Plastic Work, J", "Von Mises Stress, Pa", "Reaction Z(top), N", "Damage"])
+
     def test_times_have_the_unit_of_their_size(self):
         # Slow loading has times of a second and more, which are no milliseconds.
         for longest, expected in ((1.0, (1, "s")), (50.0, (1, "s")), (2e-3, (1e3, "ms")), (6e-6, (1e6, "µs"))):
@@ -351,6 +355,15 @@ class RigidTools(InFolder):
         x = t[-1]  # m z'' = -4 - 6 t; trapezoids of a velocity that is quadratic err by its bend: 1.5 dt² x/6
         np.testing.assert_allclose(tool.offset(x), [0, 0, -3 * x - x**2 - 0.5 * x**3], atol=0.26 * (x / 10)**2 * x)
         self.assertNotEqual(tool.offset(x)[2], -3 * x)
+        # A push between two rows has its impulse: v = -3 - 4e4 2e-5 / 2 after it.
+        (self.folder / "h.csv").write_text("# strut\nTime,Reaction_Z(punch)\n" + "\n".join(f"{x},0" for x in t) + "\n")
+        tool, = rigid.tools_of(str(deck_of(deck, {"punch": {**punch, "Force Z": "-4e4*(t < 2e-5)"}}, str(self.folder / "h.csv"))))
+        self.assertAlmostEqual((tool.offset(x)[2] - tool.offset(x / 2)[2]) / (0.5 * x), -3.4, 9)
+        # Whether a run that starts from another one goes on with its steps is not known here.
+        deck.write_text(deck.read_text().replace("><", '><ParameterList name="Start From"/><', 1))
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            rigid.tools_of(str(deck))
+        self.assertIn("the tool 'punch' is drawn as it begins anew", said.getvalue())
 
     def test_a_tool_with_a_mass_rests_in_the_equilibria_before_its_flight(self):
         (self.folder / "h.csv").write_text("# strut\nTime,Reaction_Z(punch)\n0,0\n0.5,0\n1,0\n1.001,0\n1.002,0\n")

@@ -251,6 +251,10 @@ TEST_F(PointToolTest, RefusesAWrongPath) {
 }
 
 // Perfectly plastic beyond its flow stress: no strain carries it. (Hardening modulus 0.)
+TEST_F(PointToolTest, FailsIfItsTableDoesNotFitTheDisk) {
+  EXPECT_EQ(point(path("deck.xml") + " --material steel --uniaxial-strain 1 0.1 > /dev/full; exit $?").status, 1);
+}
+
 TEST_F(PointToolTest, SaysWhereNoStepIsFound) {
   std::string saturated = deck;
   const auto at = saturated.find("100.0e6");

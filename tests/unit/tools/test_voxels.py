@@ -866,6 +866,8 @@ class Damaged(ToolTest):
         grey = self.write("a.nrrd", nrrd(self.image.astype("u1")).replace(b"endian", b'units: "mm" "parsec" "mm"\nendian'))
         self.refused("voxels", "'parsec' is not a unit of length", grey)
         self.refused("voxels", "--units: 'milimeter' is not .* .did you mean 'millimeter'", grey, "--units", "milimeter")
+        for words in (("--voxel-size", 1e-3), ("--size", 1)):
+            self.refused("voxels", "--units mm: no length of .*a.tif is used; --voxel-size and --size are in m", path, "--units", "mm", *words)
         self.refused("voxels", "have values in common", path, "--size", 1, "--material", "a", 0, 5, "--material", "b", 4, 9)
         self.refused("voxels", "the lower and the higher limit", path, "--size", 1, "--material", "a", 5, 1)
         self.refused("voxels", "no voxel is of the material 'a', from 5 to 9", path, "--size", 1, "--material", "a", 5, 9)

@@ -9,10 +9,11 @@
 curve, stiffness, picture and convergence are the tools of the same names (convergence: study; tools/README.md): smooth=3
 is their option --smooth 3, a list several words, True an option without a value. They return None but on rank 0.
 
-On several ranks: mpirun -n 4 python3 study.py, with or without mpi4py. All calls that take a deck or a run are made by
-all ranks.
+On several ranks: mpirun -n 4 python3 study.py, with or without mpi4py. All ranks make the calls that take a deck or a run,
+and those of the tools. An exception that one rank alone does not catch ends the job.
 """
 import atexit
+import sys
 
 from . import _core
 from ._core import Error
@@ -43,3 +44,4 @@ Error.problems = property(lambda error: [line.strip() for line in str(error).spl
 # Kokkos, and MPI where strut has started it, end before the interpreter does.
 atexit.register(_core.finish)
 atexit.register(close_all)  # called before it
+atexit.register(lambda: hasattr(sys, "last_value") and _core.end_job())  # called first

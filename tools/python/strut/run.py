@@ -1,4 +1,5 @@
 """A run: its steps, fields and history."""
+import copy
 import sys
 import warnings
 import weakref
@@ -77,8 +78,9 @@ class Run:
         self.deck = with_mesh(deck, mesh)
         if "Restart" not in self.deck and not continued:  # without that section the program writes one at times
             self.deck = Deck({**self.deck, "Restart": {"Enabled": False}}, self.deck.name)
-        self.mesh, self.told = mesh, Told(progress)
-        self.core = self._telling(_core.Run, self.deck.to_xml(), self.deck.name, mesh, continued, self.told)
+        self.deck = copy.deepcopy(self.deck)
+        self.mesh, self.told, self.text = mesh, Told(progress), self.deck.to_xml()
+        self.core = self._telling(_core.Run, self.text, self.deck.name, mesh, continued, self.told)
         live.add(self)
 
     def _telling(self, action, *words):
@@ -90,6 +92,9 @@ class Run:
     def advance(self, steps=None, until=None):
         """So many steps (load steps of equilibria), or to the first one at or after a time, s, or to the end. True if
         steps are left."""
+        if self.deck.to_xml() != self.text:
+            raise _core.Error("run.deck has been changed; expected the deck that the run began with: loads change in time by expressions "
+                              "of t, and another run may start from this one's checkpoint (Start From)")
         if steps is not None:
             steps = whole_number(steps, "steps", 0)
         if until is not None and not (isinstance(until, (int, float, np.number)) and np.isfinite(until)):

@@ -45,7 +45,7 @@ def curve(source, out=None, **options):
         table = columns(f"{stem}-curve.csv")
         stress = {name.removeprefix(STRESS): values for name, values in table.items() if name.startswith(STRESS)}
         return Curve(table["Strain (1)"], stress, table["Time (s)"], measures(f"{stem}-measures.csv"), text)
-    return on_first(source, made)
+    return on_first(made)
 
 
 def stiffness(deck, mesh, out=None, **options):
@@ -56,7 +56,7 @@ def stiffness(deck, mesh, out=None, **options):
         with open(os.path.join(to, "stiffness.csv"), newline="") as file:
             rows = list(csv.reader(file))[1:]
         return {kind: np.array([row[2:] for row in rows if row[0] == kind], float) for kind in dict.fromkeys(r[0] for r in rows)}
-    return on_first(None, made)
+    return on_first(made)
 
 
 def picture(source, out, **options):
@@ -71,7 +71,7 @@ def picture(source, out, **options):
             sources = [source] if isinstance(source, (str, os.PathLike)) else source
         tool("picture", *sources, out, **options)
         return out
-    return on_first(source, made)
+    return on_first(made)
 
 
 def convergence(study, out, name, **options):
@@ -81,14 +81,21 @@ def convergence(study, out, name, **options):
         tool("study", study, out, converge=name, **options)
         with open(os.path.join(out, "convergence.csv"), newline="") as file:
             return [{key: value if key in TEXTS else number(value) for key, value in row.items()} for row in csv.DictReader(file)]
-    return on_first(None, made)
+    return on_first(made)
 
 
-def on_first(source, action):
-    if (source.core.rank if isinstance(source, Run) else _core.rank()) != 0:
-        return None
-    with tempfile.TemporaryDirectory() as folder:
-        return action(folder)
+def on_first(action):
+    """What action(folder) gives on rank 0; its error is one on all."""
+    found = error = None
+    if _core.rank() == 0:
+        try:
+            with tempfile.TemporaryDirectory() as folder:
+                found = action(folder)
+        except BaseException as raised:  # Ctrl-C, too
+            error = raised
+    if _core.any(error is not None):
+        raise error or _core.Error("the tool failed on rank 0, which tells why")
+    return found
 
 
 def tool(name, *words, **options):
