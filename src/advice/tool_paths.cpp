@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "base/math/time_integral.hpp"
 #include "conditions/crossing.hpp"
 #include "conditions/prototype.hpp"
 #include "setup/changes_in_time.hpp"
@@ -14,6 +16,16 @@ namespace strut {
 namespace {
 
 constexpr int samples = 100;  // samples of a tool's path
+
+// Times at which to look at a tool's path, s, in order.
+std::vector<double> times_of_path(const RigidTool& tool, double start, double duration) {
+  std::vector<double> times = uneven_times(start, start + duration, samples);
+  for (const Function& travel : tool.values_at_points())
+    std::ranges::copy(telling_times(travel, Vector::Zero(), start, start + duration, samples),
+                      std::back_inserter(times));
+  std::ranges::sort(times);
+  return times;
+}
 
 // ---- Tools that are apart ------------------------------------------------------------------------------------------
 
@@ -29,18 +41,23 @@ double smallest_gap(const RigidTool& tool, const Body& body, const std::vector<V
 }
 
 // Time at which a tool that is `gap` (m) from all points first touches one, s after the start; nullopt if not before
-// the end of the run. Between two samples a gap closes by no more than both have moved.
+// the end of the run. A gap closes by no more than both have moved since it was computed.
 std::optional<double> first_touch(const RigidTool& tool, const Body& body, const std::vector<Vector>& velocities,
                                   double start, double duration, double gap) {
   double fastest = 0;
   for (const int i : tool.points) fastest = std::max(fastest, velocities[i].norm());
   fastest = body.domain.communicator.max(fastest);
-  for (int k = 1; k <= samples; ++k) {
-    const double before = duration * (k - 1) / samples, now = duration * k / samples;
-    gap -= fastest * (now - before) + (tool.offset(start + now) - tool.offset(start + before)).norm();
-    if (gap > 0) continue;
-    gap = smallest_gap(tool, body, velocities, start, now);
-    if (gap <= 0) return before;
+  double before = 0, computed = 0;
+  Vector there = tool.offset(start);
+  for (const double time : times_of_path(tool, start, duration)) {
+    const double now = time - start;
+    const Vector offset = tool.offset(time);
+    if (gap <= fastest * (now - computed) + (offset - there).norm()) {
+      gap = smallest_gap(tool, body, velocities, start, now);
+      if (gap <= 0) return before;
+      computed = now, there = offset;
+    }
+    before = now;
   }
   return std::nullopt;
 }
@@ -50,8 +67,8 @@ bool goes_on(const OfTime& of_time, bool is_velocity, double start, double durat
   constexpr double alike = 1e-6;
   const double first = of_time(start), moment = first_moment * duration;
   const double speed = is_velocity ? 0 : (of_time(start + moment) - first) / moment;
-  for (int k = 1; k <= samples; ++k) {
-    const double after = duration * k / samples, value = of_time(start + after);
+  for (const double time : telling_times(of_time.value, of_time.X, start, start + duration, samples)) {
+    const double after = time - start, value = of_time(time);
     const double off = std::abs(value - first - speed * after);
     if (off > alike * std::max(std::abs(value), std::abs(first))) return false;
   }
@@ -78,8 +95,8 @@ constexpr double as_good_as_none = 1e-6;
 // The range of a tool's displacements from its initial position.
 Extent displacements_of(const RigidTool& tool, double start, double duration) {
   Extent displacements;
-  for (int k = 0; k <= samples; ++k)
-    displacements.extend(Vector(tool.offset(start + duration * k / samples) - tool.offset(start)));
+  for (const double time : times_of_path(tool, start, duration))
+    displacements.extend(Vector(tool.offset(time) - tool.offset(start)));
   return displacements;
 }
 
@@ -150,8 +167,8 @@ Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, 
   if (2 * roll.radius >= least_width * spacing) return {};
   const Extent swept = moved(block.places, block.displacements);
   const double around = 0.5 * swept.diagonal().norm() + spacing;
-  for (int k = 0; k <= samples; ++k) {
-    const Vector from = swept.center() - tool.offset(start + duration * k / samples);
+  for (const double time : times_of_path(tool, start, duration)) {
+    const Vector from = swept.center() - tool.offset(time);
     if (surface(roll, from).gap < around) return {2 * roll.radius, spacing, "in diameter"};
   }
   return {};

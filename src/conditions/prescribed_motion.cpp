@@ -14,7 +14,7 @@ namespace {
 // Component c of the velocity that moves point i along the motion in its next step.
 double imposed_velocity(const PrescribedMotion& motion, int c, int i, const VelocityUpdate& update) {
   const Body& body = update.body;
-  const auto value = [&](double time) { return motion.value(body.domain.reference(i), time); };
+  const auto value = [&](double time) { return update.steps.value(motion.value, body.domain.reference(i), time); };
   const double dt = update.steps.of(i);
   if (motion.is_velocity) return update.steps.velocity_after(value, update.t, dt);
   const double target = body.domain.reference(i)[c] + update.steps.after(value, update.t, dt);
@@ -67,9 +67,8 @@ void PrescribedMotion::predict_velocities(double t, double moment, const Body& b
 
 std::vector<HeldDirection> PrescribedMotion::held_directions(const Body& body, double t, double dt) const {
   // A load step may be as long as the run: a velocity is integrated over it.
-  const std::vector<double> turns = is_velocity ? numbers_in(value.text()) : std::vector<double>();
   const auto value_at = [&](const Vector& X) {
-    return is_velocity ? time_integral(value, X, t, t + dt, turns) : value(X, t + dt);
+    return is_velocity ? time_integral(value, X, t, t + dt) : value(X, t + dt);
   };
   const bool is_common = !value.depends_on_position() && !points.empty();
   const double common = is_common ? value_at(Vector::Zero()) : 0;

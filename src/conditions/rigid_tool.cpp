@@ -98,8 +98,9 @@ class ToolMotion {
     if (tool_.free) return tool_.offset(t_ + dt);
     Vector sum = Vector::Zero();
     for (int c = 0; c < 3; ++c) {
-      if (tool_.travel[c])
-        sum[c] = steps_.after([&](double time) { return (*tool_.travel[c])(0, 0, 0, time); }, t_, dt);
+      if (!tool_.travel[c]) continue;
+      const auto travel = [&](double time) { return steps_.value(*tool_.travel[c], Vector::Zero(), time); };
+      sum[c] = steps_.after(travel, t_, dt);
     }
     return sum;
   }

@@ -12,7 +12,12 @@
 
 namespace strut {
 
-using OfTime = std::function<double(double)>;
+// A value at a place.
+struct OfTime {
+  const Function& value;
+  Vector X;
+  double operator()(double t) const { return value.evaluate(X, t); }
+};
 
 constexpr int samples_in_a_run = 1000;  // samples of a function of time
 
@@ -49,8 +54,8 @@ Where where(const std::vector<int>& points, const Body& body);
 // faces, or once if it does not depend on place.
 void over_the_box(const Function& value, const Where& where, const std::function<void(const OfTime&)>& visit);
 
-// Times in a run, s, in order, at which the value may turn or jump: its jumps, and the numbers of its text, among
-// which are the places of its tables, and the middles between these.
+// Times in a run, s, in order, at which the value may turn or jump: its jumps and its turns, and the middles between
+// these.
 std::vector<double> changes_of(const Function& value, const Where& where, double start, double end);
 
 // Every n-th of the times, with the least n that leaves `most` at most.

@@ -30,10 +30,12 @@ const std::vector<Case> cases{
 };
 
 // The error that ends the run, on every rank.
-std::string error_of(const std::string& conditions, bool slowly, const std::string& frequency) {
+std::string error_of(const std::string& conditions, bool slowly, const std::string& frequency,
+                     const std::string& final_time = "5e-6") {
   const RunFolder folder;
   Parts parts;
   parts.conditions = conditions;
+  parts.times = key("Final Time", final_time);
   parts.verlet = slowly ? key("Number of Load Steps", "10") : "";
   parts.history = key("Filename", (folder / "history.csv").string()) + key("Frequency", frequency);
   std::string text = parts.text();
@@ -68,6 +70,11 @@ TEST(ValueThatIsNoNumber, EndsExplicitStepsByItsName) {
 
 TEST(ValueThatIsNoNumber, EndsEquilibriaByItsName) {
   for (const Case& one : cases) expect_named(one, true, "1");
+}
+
+// No step needs a value later than the final time.
+TEST(ValueThatIsNoNumber, IsNoneUpToTheFinalTime) {
+  for (const Case& one : cases) EXPECT_EQ(error_of(one.conditions, false, "1", "3e-6"), "") << one.path;
 }
 
 TEST(ValueThatIsNoNumber, IsRefusedAtTheInitialTimeOfToolsToo) {
