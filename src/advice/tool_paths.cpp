@@ -251,14 +251,16 @@ std::string meeting_tools(const Situation& situation) {
   for (std::size_t n = 0; n < tools.size(); ++n) {
     for (std::size_t m = 0; m < n; ++m) {
       if (!may_meet(tools[m], tools[n]) || gap_between(tools[m], tools[n], start) < 0) continue;
-      const auto met = [&](int k) { return gap_between(tools[m], tools[n], start + duration * k / samples) < 0; };
-      const double until = std::min(stopped[m], stopped[n]);
-      int k = 1;
-      while (k <= samples && duration * k / samples <= until * (1 + as_good_as_none) && !met(k)) ++k;
-      if (k > samples || duration * k / samples > until * (1 + as_good_as_none)) continue;
+      std::vector<double> times = times_of_path(tools[m], start, duration);
+      std::ranges::copy(times_of_path(tools[n], start, duration), std::back_inserter(times));
+      std::ranges::sort(times);
+      const double until = start + std::min(stopped[m], stopped[n]) * (1 + as_good_as_none);
+      const auto met = [&](double time) { return gap_between(tools[m], tools[n], time) < 0; };
+      const auto first = std::ranges::find_if(times, [&](double time) { return time > until || met(time); });
+      if (first == times.end() || *first > until) continue;
       text
           << "WARNING: the tools '" << scene.tools[m].name << "' and '" << scene.tools[n].name
-          << "' meet by about t = " << start + duration * k / samples
+          << "' meet by about t = " << *first
           << " s, by their paths and the velocities of the start, and pass through each other: tools stop points only; "
              "expected material between them, or an end before (Final Time)\n";
     }

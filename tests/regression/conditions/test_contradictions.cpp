@@ -281,7 +281,7 @@ TEST(Values, BetweenLoadStepsAreTold) {
   for (const char* value :
        {"1e-12/(2.2e-6 - t) - 1e-12/2.2e-6", "1e-4*sin(3.14159265358979e6*2*t)",
         "table(t, 0, 0, 1.25e-6, 1e-4, 5e-6, 0)", "table(t, 0, 0, 1e-6, 1e-4, 1.25e-6, 5e-5, 1.5e-6, 1e-4, 5e-6, 0)",
-        "(t &gt; 2.21e-6)*(t &lt; 2.22e-6)*1e-4",
+        "(t &gt; 2.23e-6)*(t &lt; 2.24e-6)*1e-4",
         "(x &gt; 1e-3 &amp;&amp; x &lt; 3e-3 ? 1 : 0)*table(t, 0, 0, 1.25e-6, 1e-4, 5e-6, 0)"}) {
     expect_said(said_of(block(displacement("a", "foot", "z", value)), Loading::slow).warnings,
                 {"WARNING: Boundary Conditions > a > Value: reaches", "between two load steps", "10 load steps"},
