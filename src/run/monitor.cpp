@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <utility>
 
@@ -381,9 +382,9 @@ void Monitor::check_plastic_work(const Ledger& ledger, double missed) {
   const double whole = ledger.dissipated + missed;
   if (!(missed > std::max(much_missed * whole, worth_a_warning * ledger.largest))) return;
   warn(uncounted,
-       text_of(at(ledger.time), "Plastic_Work, External_Work and Tool_Work",
-               ledger.heat != 0 ? ", Heat and Temperature" : "", " are too small, by some ", missed, " J, ",
-               100 * missed / whole,
+       text_of(at(ledger.time), "Plastic_Work, External_Work",
+               ledger.heat != 0 ? ", Tool_Work, Heat and Temperature" : " and Tool_Work", " are too small, by some ",
+               std::setprecision(3), missed, " J, ", 100 * missed / whole,
                " % of the plastic work: a load step counts the mean of the stress at both of its ends, which is too "
                "little where it begins below yield, and next to nothing where it leads from tension to compression; "
                "expected more load steps"));
