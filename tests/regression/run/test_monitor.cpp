@@ -640,7 +640,7 @@ TEST(Monitor, TellsOfSpringsThatHoldMuchOfOneBody) {
   Parts parts = thrown_block("");
   parts.materials += section("lead", key("Material Model", "Elastic Plastic Correspondence") + key("Density", "8930") +
                                          key("Young's Modulus", "117e9") + key("Poisson's Ratio", "0.35") +
-                                         key("Yield Stress", "1e4"));
+                                         key("Yield Stress", "1e8"));
   parts.blocks = changed(parts.blocks, key("Block Names", "block_1") + key("Material", "copper"),
                          key("Block Names", "block_1") + key("Material", "lead"));
   parts.conditions = along("noise", "Initial Velocity", "block_1", "z", "20*sin(3141.59265*x)") +
