@@ -77,6 +77,7 @@ struct DeshpandeFleck {
     const Moduli now = moduli(state);
     return Elastic{now.bulk, now.shear}.elastic_energy(stress);
   }
+  double plastic_strain(const State& state) const { return state.equivalent_plastic_strain; }
   double dissipation(const State& state) const { return state.plastic_work; }
   double equivalent_stress(const Symmetric& stress, const State&) const {
     return equivalent({trace(stress) / 3, von_mises(stress)});

@@ -68,6 +68,7 @@ struct DuctileOf {
     const auto whole = [&](const Symmetric& part) { return metal.elastic_energy(part, state.metal); };
     return energy_of_softened(stress, 1 - state.damage, metal.bulk, whole);
   }
+  double plastic_strain(const State& state) const { return metal.plastic_strain(state.metal); }
   bool has_flowed(const State& state) const { return metal.has_flowed(state.metal); }
   double part_left(const State& state) const { return 1 - state.damage; }
   void set_crack_length(double to) { length = to; }

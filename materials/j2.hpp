@@ -33,6 +33,7 @@ struct J2 {
   double elastic_energy(const Symmetric& stress, const State&) const {
     return Elastic{bulk, shear}.elastic_energy(stress);
   }
+  double plastic_strain(const State& state) const { return state.equivalent_plastic_strain; }
   bool has_flowed(const State& state) const { return state.equivalent_plastic_strain > 0; }
   double dissipation(const State& state) const { return state.plastic_work; }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }

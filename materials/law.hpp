@@ -16,6 +16,7 @@
 //   dissipation       energy dissipated so far, J per m³ of reference volume; the ledger of a run adds up both.
 //   equivalent_stress the stress that is compared with the flow stress, Pa.
 //   flow_stress       the equivalent stress at which the point yields, Pa; infinity if it never yields.
+//   plastic_strain    optional, for laws with plastic work: the strain whose increments times flow_stress it adds up.
 //   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever
 //                     flowed or softened. The integration points of its cell then get their mean change of volume
 //                     (volumetric locking: src/mechanics/formulation/quadratic.md).
@@ -102,6 +103,12 @@ inline constexpr bool takes_lanes = requires(const L law, const StepOf<RawLanes>
 template <class L>
 inline constexpr bool has_changing_moduli = requires(const L law, const typename L::State& state) {
   law.moduli(state);
+};
+
+// True if a law has plastic_strain().
+template <class L>
+inline constexpr bool tells_plastic_strain = requires(const L law, const typename L::State& state) {
+  { law.plastic_strain(state) } -> std::same_as<double>;
 };
 
 // True if a law has has_flowed().

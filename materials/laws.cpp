@@ -16,6 +16,32 @@ Moduli moduli_of(const AnyLaw& law) {
   return std::visit([](const auto& one) -> Moduli { return one.moduli(); }, law);
 }
 
+namespace {
+
+bool has_rate(const FlowStress& flow) { return !std::holds_alternative<NoRate>(flow.rate); }
+bool has_rate(const ThermalFlow& flow) {
+  const auto* softened = std::get_if<SoftenedFlow>(&flow);
+  return !softened || has_rate(softened->cold);
+}
+template <class L>
+bool has_rate(const L& law) {
+  if constexpr (requires { law.flow; }) {
+    return has_rate(law.flow);
+  } else if constexpr (requires { law.metal; }) {
+    return has_rate(law.metal);
+  } else if constexpr (requires { law.kept(); }) {
+    return law.kept() < 1;
+  } else {
+    return std::is_same_v<L, UserLaw>;
+  }
+}
+
+}  // namespace
+
+bool depends_on_rate(const AnyLaw& law) {
+  return std::visit([](const auto& one) { return has_rate(one); }, law);
+}
+
 std::optional<AnyLaw> failing(const AnyLaw& metal, const Ductility& ductility) {
   if (const auto* cold = std::get_if<J2>(&metal)) return Ductile{*cold, ductility};
   if (const auto* hot = std::get_if<ThermalJ2>(&metal)) return ThermalDuctile{*hot, ductility};

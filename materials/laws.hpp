@@ -24,6 +24,9 @@ using AnyLaw = std::variant<Elastic, Brittle, J2, ThermalJ2, ShockJ2, Ductile, T
 // The elastic moduli of the undeformed solid.
 Moduli moduli_of(const AnyLaw& law);
 
+// True if the stress depends on how fast the strain changes, or may, as that of a library.
+bool depends_on_rate(const AnyLaw& law);
+
 // The law of a metal whose points may fail; nullopt if there is none.
 std::optional<AnyLaw> failing(const AnyLaw& metal, const Ductility& ductility);
 

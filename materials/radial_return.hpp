@@ -128,7 +128,8 @@ class RadialReturn {
   // step on a concave flow stress does not leave the bracket.
   T cold_guess(const T& q, const Rest& at_rest, const T& dt) const {
     const T to_rest = (q - at_rest.value) / (3 * shear_), all = flow_.rate_at(q, at_rest) * dt;
-    return all < to_rest ? all : to_rest;
+    const T least = all < to_rest ? all : to_rest;
+    return least < 0 ? T{} : least;  // lanes' sqrt may give a q one bit below the flow stress
   }
 
   // Replaces Newton iterates outside the bracket.

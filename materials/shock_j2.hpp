@@ -104,6 +104,7 @@ struct ShockJ2 {
   Moduli moduli(const State& state) const;
   double stored_energy(const State& state) const { return state.stored; }
   double elastic_energy(const Symmetric&, const State& state) const { return state.stored / state.volume; }
+  double plastic_strain(const State& state) const { return state.equivalent_plastic_strain; }
   bool has_flowed(const State& state) const { return metal.has_flowed(state); }
   double dissipation(const State& state) const { return metal.dissipation(state); }
   double heat(const State& state) const { return metal.heat(state); }

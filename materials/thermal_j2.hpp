@@ -50,6 +50,7 @@ struct ThermalJ2 {
   double elastic_energy(const Symmetric& stress, const State& state) const {
     return Elastic{bulk, shear_modulus(state)}.elastic_energy(stress);
   }
+  double plastic_strain(const State& state) const { return state.equivalent_plastic_strain; }
   bool has_flowed(const State& state) const { return state.equivalent_plastic_strain > 0; }
   double dissipation(const State& state) const { return state.plastic_work; }
   // Rise in temperature, K, by plastic work and viscous heat, J per m³ of reference volume.

@@ -1,7 +1,10 @@
 #include "mechanics/energies.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
+#include "mechanics/formulation/tangent.hpp"
 #include "mechanics/steepness.hpp"
 #include "topology/parallel_for.hpp"
 
@@ -90,6 +93,31 @@ std::vector<Energies> stored_energies_of_bodies(const Body& body) {
   }
   for (Energies& sum : sums) sum = over_all_ranks(sum, domain.communicator);
   return sums;
+}
+
+double missed_plastic_work(const Body& body, const Committed& start) {
+  double sum = 0;
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const MaterialBlock& block = body.blocks[b];
+    const auto of_block = [&]<class L>(const L& law) {
+      if constexpr (materials::tells_plastic_strain<L>) {
+        const std::size_t places = block.points_per_cell();
+        for (std::size_t n = 0; n < places * block.points.size(); ++n) {
+          const std::size_t k = n / places, q = n % places, index = block.index(k, static_cast<int>(q));
+          const auto old = state_in<L>(start.state(b), index), now = block.state_of<L>(index);
+          const double J = body.integration_point(block, k, static_cast<int>(q)).deformation_gradient.determinant();
+          const double flowed = law.plastic_strain(now) - law.plastic_strain(old);
+          const double work = 0.5 * J * (law.flow_stress(old) + law.flow_stress(now)) * flowed;
+          const double missed = work - (law.dissipation(now) - law.dissipation(old));
+          if (flowed > 0 && std::isfinite(work)) {
+            sum += body.domain.volume(block.points[k]) * std::max(0.0, missed) / static_cast<double>(places);
+          }
+        }
+      }
+    };
+    std::visit(of_block, block.material.law);
+  }
+  return sum;
 }
 
 }  // namespace strut

@@ -7,6 +7,8 @@
 
 namespace strut {
 
+class Committed;
+
 // The energy that one point stores and has dissipated.
 struct PointEnergy {
   double elastic = 0, dissipated = 0, heat = 0;  // J/m³ of reference volume; heat: ρ c_p (T − T₀)
@@ -33,5 +35,10 @@ Energies stored_energies(const Body& body);
 
 // Collective, likewise. Of each body of the domain alone, without the energies of expansion and of broken bonds.
 std::vector<Energies> stored_energies_of_bodies(const Body& body);
+
+// How much more the flow stress has done along the plastic strain since `start` than laws count, on this rank, J: they
+// take the mean of the stress at both ends of a step, which is too little where a step begins far below yield, and none
+// where it leads from tension at yield to compression at yield.
+double missed_plastic_work(const Body& body, const Committed& start);
 
 }  // namespace strut

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <utility>
 
@@ -32,6 +33,10 @@ constexpr double much_volume = 0.02;
 
 // Least balance error that gets a warning, relative to the largest energy; limit of an energy gain over that of a loss.
 constexpr double worth_a_warning = 0.01, of_gains = 0.2;
+
+// Least fraction of the plastic work that gets a warning if load steps miss it: a compression in ten steps misses half
+// of what flows in the one in which it begins to, 5 %.
+constexpr double much_missed = 0.1;
 
 // `text` on the first rank where `here` is true, else nothing.
 std::string of_first(const Body& body, bool here, const std::string& text) {
@@ -371,6 +376,18 @@ void Monitor::check_failed(double time) {
             "steps (Solver > Verlet) where material parts";
   }
   warn_once(failing, of_first(body_, own > 0, text.str()));
+}
+
+void Monitor::check_plastic_work(const Ledger& ledger, double missed) {
+  const double whole = ledger.dissipated + missed;
+  if (!(missed > std::max(much_missed * whole, worth_a_warning * ledger.largest))) return;
+  warn(uncounted,
+       text_of(at(ledger.time), "Plastic_Work, External_Work",
+               ledger.heat != 0 ? ", Tool_Work, Heat and Temperature" : " and Tool_Work", " are too small, by some ",
+               std::setprecision(3), missed, " J, ", 100 * missed / whole,
+               " % of the plastic work: a load step counts the mean of the stress at both of its ends, which is too "
+               "little where it begins below yield, and next to nothing where it leads from tension to compression; "
+               "expected more load steps"));
 }
 
 void Monitor::check_resolution(const Ledger& ledger, bool last) {

@@ -34,6 +34,8 @@ class Monitor {
   // Deformation that the points do not resolve, after a step with diagnostics: warns once, never ends a run.
   void check_resolution(const Ledger& ledger, bool last);
   void check_failed(double time);  // points without stress in an equilibrium: warns once
+  // Plastic work that load steps miss (J; energies.hpp), at the end of a run of equilibria.
+  void check_plastic_work(const Ledger& ledger, double missed);
   // Omissions of the deck, at some checks: material that passes through material without contact, and tools (named as
   // in `tools`) between points that are bonded to each other.
   void check_undeclared(double time, const contact::Contact& contact);
@@ -61,6 +63,7 @@ class Monitor {
     failing,
     meeting,
     unstored,
+    uncounted,
     count
   };
   static constexpr double checks = 200;       // checks per run of energies, interpenetration and tools between points

@@ -239,8 +239,10 @@ void Run::Parts::watch_step() {
 }
 
 void Run::Parts::watch_equilibrium() {
-  const auto ledger = record();
-  monitor->check_energy(ledger ? *ledger : equilibria->ledger(), last);
+  const auto recorded = record();
+  const Ledger ledger = recorded ? *recorded : equilibria->ledger();
+  monitor->check_energy(ledger, last);
+  if (last) monitor->check_plastic_work(ledger, equilibria->missed_plastic_work());
   monitor->check_failed(time());
   watch_bodies(*equilibria);
 }

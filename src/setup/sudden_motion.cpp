@@ -231,12 +231,15 @@ struct Missed {
   double value = 0, time = 0, before = 0, after = 0, beyond = 0;
 };
 
-// `values`: at these times of one load step. Takes the value that is farthest outside of those at both ends.
-void take_missed(const std::vector<double>& values, const std::vector<double>& times, Missed& worst) {
-  const double before = values.front(), after = values.back();
+// `values`: at these times of one load step. Takes the value that is farthest outside of those at both ends, or, if
+// `rate_counts`, farthest from the straight line between them.
+void take_missed(const std::vector<double>& values, const std::vector<double>& times, bool rate_counts, Missed& worst) {
+  const double before = values.front(), after = values.back(), duration = times.back() - times.front();
   if (!std::isfinite(before) || !std::isfinite(after)) return;  // an error there
   for (std::size_t n = 0; n < values.size(); ++n) {
-    const double beyond = std::max(values[n] - std::max(before, after), std::min(before, after) - values[n]);
+    const double on_line = std::lerp(before, after, (times[n] - times.front()) / duration);
+    const auto [least, most] = rate_counts ? std::pair(on_line, on_line) : std::minmax({before, after});
+    const double beyond = std::max(values[n] - most, least - values[n]);
     if (beyond > worst.beyond) worst = {values[n], times[n], before, after, beyond};
   }
 }
@@ -248,6 +251,8 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
   constexpr int most_between = 16, most_samples = 100000;  // of a load step and of a run
   constexpr double reported = 0.06;  // of the largest at load steps: ten a period of a sine miss 5.1 % of that at most
   constexpr double round_off = 1e-12;
+  const bool rate_counts = std::ranges::any_of(
+      body.blocks, [](const MaterialBlock& block) { return materials::depends_on_rate(block.material.law); });
   const int load_steps = deck.solver.quasi_static->load_steps;
   const int between = std::clamp(most_samples / load_steps, 2, most_between);
   const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
@@ -277,7 +282,7 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
             if (std::isfinite(all.back())) seen = std::max(seen, std::abs(all.back()));
           }
           largest = std::max({largest, std::abs(all.front()), std::abs(all.back())});
-          take_missed(all, times, missed);
+          take_missed(all, times, rate_counts, missed);
         }
       });
       if (!(missed.beyond > reported * largest + round_off * (std::abs(zero) + seen))) continue;
@@ -286,8 +291,10 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
                : is_velocity ? ": its integral reaches "
                              : ": reaches ")
            << missed.value << " at t = " << missed.time << " s, between two load steps, and " << missed.before
-           << " and " << missed.after << " at these: the equilibria do not see it; is it meant, with " << load_steps
-           << " load steps?\n";
+           << " and " << missed.after << " at these: "
+           << (rate_counts ? "equilibria follow the straight line between these, and a material depends on its rate"
+                           : "the equilibria do not see it")
+           << "; is it meant, with " << load_steps << " load steps?\n";
     }
   }
   return text.str();

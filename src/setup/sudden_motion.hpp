@@ -29,7 +29,8 @@ std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& poi
 // integral depends on where the steps fall, a line each.
 std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);
 
-// Collective. For equilibria: warns of values between two load steps outside of those at both, a line each.
+// Collective. For equilibria: warns of values between two load steps outside of those at both, a line each; if a
+// material depends on the rate, also of values beside the straight line between these.
 std::string values_between_load_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);
 
 }  // namespace strut

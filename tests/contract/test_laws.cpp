@@ -564,6 +564,30 @@ TEST(J2Test, WhetherAPointYieldsDoesNotDependOnWhoIsBesideIt) {
   }
 }
 
+// An equilibrium that begins where another one ended: whether the stress is above or below the flow stress is a matter
+// of the last bit, and lanes' square root is off by one.
+TEST_P(LawTest, APointAtItsFlowStressMayRest) {
+  with_law([]<Law L>(const L& law) {
+    Random random(7);
+    const Increment rest{Symmetric::Zero(), 1e-6, 1};
+    for (int n = 0; n < 200; ++n) {
+      Point<L> alone;
+      ASSERT_TRUE(alone.advance(law, Increment{random_tensor(random, 1e4), 1e-6, 1}));
+      EXPECT_TRUE(alone.advance(law, rest)) << "alone";
+      if constexpr (takes_lanes<L>) {
+        SideBySide<L> group;
+        std::vector<PointStep> steps;
+        for (int l = 0; l < small::lane_count; ++l)
+          steps.push_back({random_tensor(random, 1e4), 1e-6, 1, spherical(1)});
+        const std::vector<bool> all(steps.size(), true);
+        ASSERT_EQ(group.advance(law, steps), all);
+        for (PointStep& step : steps) step.rate.setZero();
+        EXPECT_EQ(group.advance(law, steps), all) << "side by side";
+      }
+    }
+  });
+}
+
 // ---- Bad input ------------------------------------------------------------------------------------------------------
 
 template <Law L>

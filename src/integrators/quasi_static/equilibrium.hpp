@@ -113,6 +113,7 @@ class Equilibrium {
   double external_work() const;
   double tool_work() const { return tools_.work(body_); }
   double friction_work() const;  // between bodies
+  double missed_plastic_work() const { return strut::missed_plastic_work(body_, committed_); }
   // Collective. Upper bound of the work of errors in this load step, J: of forces by round-off, and of the residual
   // forces that a search leaves in a body that expands.
   double work_of_errors() const;

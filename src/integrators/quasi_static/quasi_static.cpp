@@ -144,6 +144,7 @@ void QuasiStatic::serialize_steps(Archive& archive) {
   archive.number("work_of_tools", by_tools_);
   archive.number("work_of_friction", by_friction_);
   archive.number("lost_in_jumps", in_jumps_);
+  archive.number("missed_plastic_work", missed_);
   archive.number("largest_energy", largest_energy_);
 }
 
@@ -183,6 +184,7 @@ void QuasiStatic::take_work() {
   external_ += ranks.sum(equilibrium_.external_work());
   by_tools_ += ranks.sum(equilibrium_.tool_work());
   by_friction_ += ranks.sum(equilibrium_.friction_work());
+  missed_ += ranks.sum(equilibrium_.missed_plastic_work());
   largest_energy_ += above_errors * equilibrium_.work_of_errors();
 }
 
@@ -256,11 +258,16 @@ void QuasiStatic::raise_no_equilibrium(std::int64_t broken) {
 
 void QuasiStatic::report(const EquilibriumSearch& search, std::int64_t broken) const {
   char line[200];
-  const int length = std::snprintf(
-      line, sizeof line, "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, %.1e of the load left",
-      steps_, time_, last_dt_, search.iterations, search.evaluations,
-      search.left.scale > 0 ? search.left.norm / search.left.scale : 0.0);
+  const int length =
+      std::snprintf(line, sizeof line, "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, ", steps_,
+                    time_, last_dt_, search.iterations, search.evaluations);
   std::string text(line, length);
+  const Imbalance& left = search.left;
+  if (left.scale > left.round_off) {
+    text.append(line, std::snprintf(line, sizeof line, "%.1e of the load left", left.norm / left.scale));
+  } else {
+    text += "no load";
+  }
   if (broken > 0) text += ", " + std::to_string(broken) + " bonds broke";
   observer_.load_steps(text);
 }

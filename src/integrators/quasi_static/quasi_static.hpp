@@ -50,6 +50,7 @@ class QuasiStatic {
 
   Ledger ledger();                                                                          // collective
   Reactions reactions(int conditions) const { return equilibrium_.reactions(conditions); }  // collective
+  double missed_plastic_work() const { return missed_; }  // J, of all load steps and ranks (energies.hpp)
 
  private:
   EquilibriumSearch attempt();
@@ -73,6 +74,7 @@ class QuasiStatic {
   Field last_step_;  // m, of the last load step
   int steps_ = 0, iterations_ = 0, evaluations_ = 0;
   double put_in_ = 0, external_ = 0, by_tools_ = 0, by_friction_ = 0, in_jumps_ = 0, largest_energy_ = 0;
+  double missed_ = 0;  // J, of plastic work
 };
 
 }  // namespace strut

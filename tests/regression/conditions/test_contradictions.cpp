@@ -310,6 +310,23 @@ TEST(Values, BetweenLoadStepsAreTold) {
   }
 }
 
+// A ramp that ends within a load step: its rate is not that of the step.
+TEST(Values, BesideTheLineBetweenLoadStepsAreToldIfTheRateCounts) {
+  const auto warnings = [](const std::string& rate, const std::string& value) {
+    Parts parts = block(displacement("a", "foot", "z", value));
+    parts.materials =
+        copper(key("Yield Stress", "50e6") +
+               section("Rate", key("Type", rate) +
+                                   (rate == "None" ? "" : key("Reference Rate", "1e-3") + key("Exponent", "0.01"))));
+    return said_of(parts, Loading::slow).warnings;
+  };
+  const std::string ramp = "table(t, 0, 0, 1e-8, 1e-4, 5e-6, 1e-4)";
+  expect_said(warnings("Power Law", ramp), {"a > Value: reaches 0.0001 at t = 1e-08 s", "depends on its rate"}, ramp);
+  EXPECT_EQ(warnings("None", ramp).find("between two load steps"), std::string::npos);
+  for (const char* value : {"20*t", "table(t, 0, 0, 1e-6, 1e-4, 5e-6, 1e-4)", "1e-4*sin(6.2831853e5*t)"})
+    EXPECT_EQ(warnings("Power Law", value).find("between two load steps"), std::string::npos) << value;
+}
+
 TEST(Displacement, ThatJumpsIsTold) {
   const std::string jump = "if (t &lt; 2e-6) { value = 0; } else { value = 1e-4; }";
   expect_said(said_of(block(displacement("a", "foot", "z", jump))).warnings,

@@ -83,6 +83,38 @@ TEST(SlowLoading, IntegratesAPrescribedVelocity) {
   }
 }
 
+// A cycle in four steps: half of the work of the first step is missed, and all of those from tension to compression and
+// back. In 32 steps the same is missed of steps eight times shorter, and less where the sine turns.
+TEST(SlowLoading, PlasticWorkThatLoadStepsMissIsTold) {
+  Parts parts;
+  parts.materials = copper(key("Yield Stress", "50e6"));
+  parts.conditions =
+      all_of_foot() + along("pull", "Prescribed Displacement", "top", "z", "5e-5*sin(6.283185307179586*t)");
+  const std::string words = "too small, by some ";
+  const Files coarse = files_of(parts, key("Number of Load Steps", "4"), {});
+  const Files fine = files_of(parts, key("Number of Load Steps", "32"), {});
+  EXPECT_EQ(fine.said.find(words), std::string::npos) << fine.said;
+  if (fine.said.empty()) return;  // another rank than the one that tells
+  const std::size_t told = coarse.said.find(words);
+  ASSERT_NE(told, std::string::npos) << coarse.said;
+  const double missed = std::stod(coarse.said.substr(told + words.size()));
+  const auto work = [](const Files& files) { return files.history.at("Plastic_Work").back(); };
+  EXPECT_LT(work(coarse), 0.5 * work(fine));
+  EXPECT_NEAR((work(coarse) + missed) / work(fine), 1, 0.05);
+}
+
+// While a plane only stands there, forces are round-off, and there is no load that they could be compared with.
+TEST(SlowLoading, AStepWithoutALoadIsToldAsSuch) {
+  Parts parts;
+  parts.conditions =
+      all_of_foot() + section("press", key("Type", "Rigid Plane") + key("Point", "0 0 5.5e-3") +
+                                           key("Normal", "0 0 -1") + key("Travel Z", "-1e-5*max(t - 0.5, 0)"));
+  const std::string said = files_of(parts, key("Number of Load Steps", "2"), {}).said;
+  if (said.empty()) return;  // another rank than the one that tells
+  EXPECT_NE(said.find("evaluations, no load\n"), std::string::npos) << said;
+  EXPECT_NE(said.find(" of the load left"), std::string::npos) << said;
+}
+
 // A bar on its held foot, pressed by a plane. Forces of all conditions cancel but for what the tolerance leaves, 1e-6
 // of them at each of 96 points at the most.
 TEST(SlowLoading, WritesFramesAndReactions) {
