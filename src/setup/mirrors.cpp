@@ -211,7 +211,8 @@ Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communica
     for (const int body : bodies) {
       plane.body = body;
       const std::string& set = deck.conditions[plane.number].node_set;
-      const Place place = PlaneSearch(cloud, plane, set, bonds, communicator).place();
+      Place place = PlaneSearch(cloud, plane, set, bonds, communicator).place();
+      if (deck.discretization.grid.boxes) place.apart = place.gap = 0;  // boxes are no nodes, and are refused below
       if (place.in_set == 0 || holds_the_middle(place)) continue;
       const bool is_quadratic = is_quadratic_body(deck, cloud, bonds, body);
       const std::string text = objection(place, cloud.at, is_quadratic);
