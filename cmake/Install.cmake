@@ -5,7 +5,7 @@ set(STRUT_SHARE ${CMAKE_INSTALL_DATADIR}/strut)
 
 set(programs strut)
 if(STRUT_TOOLS)
-  list(APPEND programs strut-mesh strut-compare strut-point strut-evaluate)
+  list(APPEND programs strut-mesh strut-point strut-evaluate)
 endif()
 if(STRUT_PYTHON)
   list(APPEND modules strut_python)
@@ -30,7 +30,12 @@ install(FILES ${pages}/strut.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL
 install(FILES ${pages}/strut DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions OPTIONAL)
 
 install(DIRECTORY tools DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
-        REGEX "\\.(cpp|hpp|cmake)$|CMakeLists.txt|__pycache__|/(compare|mesh|point|python)$|/(prepare|test|site|packages(-[a-z]+)?)$" EXCLUDE)
+        REGEX "\\.(cpp|hpp|cmake)$|CMakeLists.txt|__pycache__|/(mesh|point|python)$|/(prepare|test|site|packages(-[a-z]+)?)$" EXCLUDE)
+# A tool in Python that is also found as a program.
+file(RELATIVE_PATH compare ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/strut/tools/strut-compare)
+file(MAKE_DIRECTORY ${pages})
+file(CREATE_LINK ${compare} ${pages}/strut-compare SYMBOLIC)
+install(FILES ${pages}/strut-compare DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY inputs DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
         REGEX "\\.(g|e|csv|png|log|restart|restart\\.old)$" EXCLUDE)  # what runs have left
 install(DIRECTORY materials/abaqus DESTINATION ${STRUT_SHARE}/materials)  # for laws of one's own

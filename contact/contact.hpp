@@ -91,6 +91,9 @@ class Contact {
   // it was not zero.
   void add_where_touched(double amount, std::span<double> of_points) const;
 
+  // Collective, after add_forces. Calls visit(number of an owned point, that of another one, whether an image of it
+  // through periodic sides is meant) for all points that may touch where they are; `numbers`: of the owned points.
+  void for_each_near(std::span<const int> numbers, const std::function<void(int, int, bool)>& visit) const;
   // Marks owned points that touch, or will in a step like the last one; by surfaces, those with a contact force.
   void mark_touching(std::span<std::uint8_t> marks) const;
   // Marks owned points that the last search found near other points.

@@ -72,6 +72,27 @@ void Contact::mark_near(std::span<std::uint8_t> marks) const {
   }
 }
 
+void Contact::for_each_near(std::span<const int> numbers, const std::function<void(int, int, bool)>& visit) const {
+  for (const ContactPair& contact_pair : contact_pairs_) {
+    const Pairs& pairs = contact_pair.pairs;
+    const double radius = radius_of(contact_pair.model.law);
+    std::vector<int> of_sites(pairs.sites.size());
+    for (std::size_t k = 0; k < pairs.owned.size(); ++k) of_sites[k] = numbers[pairs.owned[k]];
+    if (pairs.halo) pairs.halo->exchange(of_sites);
+    for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+      const Site& here = pairs.sites[k];
+      for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
+        const int partner = pairs.partners[p];
+        const Site& there = pairs.sites[partner];
+        const double apart = (there.reference - here.reference).head<3>().matrix().norm();
+        const double now_apart = (there.current - here.current).head<3>().matrix().norm();
+        if (now_apart > contact_pair.blocks.touching(radius, apart)) continue;
+        visit(of_sites[k], of_sites[partner], !pairs.above.empty() && !pairs.above[partner].isZero(0));
+      }
+    }
+  }
+}
+
 Vector Contact::force(const Domain& domain, int first, int second) const {
   Vector sum = Vector::Zero();
   for (const ContactPair& contact_pair : contact_pairs_) {

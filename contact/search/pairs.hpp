@@ -26,6 +26,11 @@ struct BlockPair {
   std::vector<int> points;    // owned, of either block, ascending
 
   bool self() const { return first == second; }
+  // The largest distance, m, at which points that are `apart` in the mesh touch; `radius`: r_c.
+  double touching(double radius, double apart) const {
+    const bool anywhere = by_surfaces && !one_body;
+    return anywhere ? radius : largest_touching_distance(radius, apart, one_body);
+  }
 };
 
 // The number of broken bonds of each owned point; empty if no bonds may break.
@@ -91,9 +96,7 @@ struct Criterion {
 
   bool within_reach(const Candidate& a, const Candidate& b) const {
     const double apart = (reference(b) - reference(a)).norm();
-    const bool anywhere = blocks.by_surfaces && !blocks.one_body;
-    const double touching = anywhere ? radius : largest_touching_distance(radius, apart, blocks.one_body);
-    const double reach = touching + (a.skin + b.skin);  // the same from both ends
+    const double reach = blocks.touching(radius, apart) + (a.skin + b.skin);  // the same from both ends
     return (place(b) - place(a)).squaredNorm() <= reach * reach;
   }
 };

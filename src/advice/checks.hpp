@@ -119,6 +119,9 @@ std::string unknown_gradients(const Situation& situation);
 // by the mean gradient, and those that are bonded to others of other horizons.
 std::string unequal_horizons(const Situation& situation);
 
+// A warning for each block, not by quadratic correspondence, with points whose neighbors are off a lattice.
+std::string points_off_lattices(const Situation& situation);
+
 // A warning for the blocks with points at nodes that touch by surfaces and are so narrow that the contact
 // is weak everywhere.
 std::string narrow_surfaces_of_nodes(const Situation& situation);
@@ -129,7 +132,8 @@ std::string narrow_surfaces_of_nodes(const Situation& situation);
 // direction: by how much only where no surface is near.
 std::string uneven_dilatation(const Situation& situation);
 
-// A warning for each block with cells that are no cubes, if it has contact by surfaces or a fracture energy.
+// A warning for each block with cells that are no cubes, if it has contact by surfaces or a fracture energy; and for
+// each with contact or a fracture energy whose cells differ in size.
 std::string oblong_cells(const Situation& situation);
 
 // ---- declared_contact.cpp
@@ -181,9 +185,6 @@ std::string filled_tools(const Situation& situation);
 // touches one, or the warning that it touches none; no warning if a prescribed motion changes later. It is a forecast:
 // motion by loads and impacts is not considered.
 std::string apart_tools(const Situation& situation);
-
-// A warning for each tool that is across one periodic side at some time: it has no image at the other.
-std::string tools_across_sides(const Situation& situation);
 
 // A warning for every two tools, one of them with a mass, that meet by their paths and initial velocities
 // before a point stops one: tools do not interact.

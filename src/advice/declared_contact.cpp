@@ -36,10 +36,8 @@ std::optional<double> first_meeting(const Situation& situation, int one, int oth
   std::optional<double> first;
   std::vector<View> views;  // empty until boxes along the axes of space meet
   for (int image = 0; image < images.count(); ++image) {
-    Trajectory b = situation.trajectories[other];
     const Vector shift = images[image].stretched(domain.halo.stretch()).shift;
-    b.places.translate(shift);
-    b.cells.translate(shift);
+    const Trajectory b = shifted(situation.trajectories[other], shift);
     if (may_be_bonded(domain.blocks[one], domain.blocks[other], a.places.exteriorDistance(b.places))) continue;
     auto time = meeting_time(a, b, situation.duration);
     if (time) {

@@ -52,7 +52,7 @@ std::string filled_tools(const Situation& situation) {
     const bool cuts = tools[n].reaches && !scene.tools[n].is_resumed;
     Met inside, cells;
     for (const int i : tools[n].points) {
-      const Vector place = scene.body.current(i) - offset;
+      const Vector place = tools[n].nearest_image(domain, scene.body.current(i) - offset);
       const double spacing = domain.cloud.spacings[i], depth = -tools[n].met_by(i, tools[n].shape, place).gap;
       if (depth > least_depth * spacing) inside.add(depth);
       const double part = cuts ? cut(tools[n], domain, i, place) : 0;

@@ -115,7 +115,8 @@ void note_meetings(const RigidTool& tool, int n, const std::vector<Held>& held, 
     for (const int i : one.points) {
       if (!std::binary_search(tool.points.begin(), tool.points.end(), i)) continue;
       const auto [X, is_face] = place_of(one, i, body.domain);
-      const Vector place = X + displacements[i] - offset - body.domain.cloud.spacings[i] * press;
+      const Vector place =
+          tool.nearest_image(body.domain, X + displacements[i] - offset - body.domain.cloud.spacings[i] * press);
       const auto met_by = [&](const auto& shape) {
         return is_face ? surface(shape, place) : tool.met_by(i, shape, place);
       };

@@ -237,6 +237,68 @@ std::string unequal_horizons(const Situation& situation) {
   return centers_of_tetrahedra(situation) + text.str();
 }
 
+namespace {
+
+// By how much the neighbors of a point are off a lattice: the largest distance of one's mirror image at the point from
+// the neighbor next to it, over the least distance of a neighbor. On a lattice it is 0; where a surface takes the
+// image's place, the next one is a spacing away.
+double off_lattice(const Domain& domain, int i) {
+  constexpr double missing = 0.9;
+  std::vector<Vector> neighbors;
+  double nearest = std::numeric_limits<double>::infinity(), most = 0;
+  domain.families.for_each(i, [&](int j) {
+    neighbors.push_back(domain.reference(j) - domain.reference(i));
+    nearest = std::min(nearest, neighbors.back().norm());
+  });
+  for (const Vector& one : neighbors) {
+    double off = std::numeric_limits<double>::infinity();
+    for (const Vector& other : neighbors) off = std::min(off, (one + other).squaredNorm());
+    off = std::sqrt(off) / nearest;
+    if (off < missing) most = std::max(most, off);
+  }
+  return most;
+}
+
+}  // namespace
+
+std::string points_off_lattices(const Situation& situation) {
+  constexpr double worth_saying = 0.05;                             // stress a few percent off
+  constexpr std::size_t enough = 20000, corners_of_tetrahedra = 4;  // points of a block and rank
+  const Body& body = situation.scene.body;
+  const Domain& domain = body.domain;
+  const auto& nodes = domain.cloud.shared_nodes;
+  std::vector<std::vector<int>> off(body.blocks.size());
+  std::vector<double> most(body.blocks.size(), 0);
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const auto& points = body.blocks[b].points;
+    for (std::size_t k = 0; k < points.size() && !body.blocks[b].is_quadratic(); k += 1 + points.size() / enough) {
+      const int i = points[k];
+      const bool is_told = domain.cloud.at == PointsAt::elements && !nodes.empty() &&
+                           nodes[i].size() == corners_of_tetrahedra;  // centers_of_tetrahedra()
+      if (is_told || domain.families.lattice(i)) continue;
+      const double found = off_lattice(domain, i);
+      if (found > worth_saying) off[b].push_back(i);
+      most[b] = std::max(most[b], found);
+    }
+  }
+  domain.communicator.max(most);
+  const std::vector<FoundPoints> found = found_points(body, off);
+  std::string text;
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (found[b].count == 0) continue;
+    text += text_of(
+        std::setprecision(2), "WARNING: block '", body.blocks[b].name, "': around ", found[b].count,
+        " points or more, one of them at ", place_text(found[b].one), ", neighbors are off a lattice by up to ",
+        most[b], " spacings, as beside cells of another size: a uniform stress is no equilibrium there (",
+        body.blocks[b].is_ordinary()
+            ? "stress was found to be up to 10 % off, strains up to 50 %"
+            : "in elastic equilibria stress was found to be 10 % off at 0.1, 20 to 80 % from 0.2 on, and displacements "
+              "alternate between neighbors; in Taylor bars plastic strain was 5 % off",
+        "); expected cells of one size in a lattice, or Formulation 'Quadratic Correspondence'\n");
+  }
+  return text;
+}
+
 std::string narrow_surfaces_of_nodes(const Situation& situation) {
   constexpr double narrow = 8;  // spacings
   const Body& body = situation.scene.body;

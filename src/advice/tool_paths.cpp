@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
 #include "advice/checks.hpp"
+#include "base/math/time_integral.hpp"
 #include "conditions/crossing.hpp"
 #include "conditions/prototype.hpp"
 #include "setup/changes_in_time.hpp"
@@ -15,6 +17,16 @@ namespace {
 
 constexpr int samples = 100;  // samples of a tool's path
 
+// Times at which to look at a tool's path, s, in order.
+std::vector<double> times_of_path(const RigidTool& tool, double start, double duration) {
+  std::vector<double> times = uneven_times(start, start + duration, samples);
+  for (const Function& travel : tool.values_at_points())
+    std::ranges::copy(telling_times(travel, Vector::Zero(), start, start + duration, samples),
+                      std::back_inserter(times));
+  std::ranges::sort(times);
+  return times;
+}
+
 // ---- Tools that are apart ------------------------------------------------------------------------------------------
 
 double smallest_gap(const RigidTool& tool, const Body& body, const std::vector<Vector>& velocities, double start,
@@ -23,24 +35,29 @@ double smallest_gap(const RigidTool& tool, const Body& body, const std::vector<V
   double smallest = std::numeric_limits<double>::infinity();
   for (const int i : tool.points) {
     const Vector place = body.current(i) + after * velocities[i] - offset;
-    smallest = std::min(smallest, tool.met_by(i, tool.shape, place).gap);
+    smallest = std::min(smallest, tool.met_by(i, tool.shape, tool.nearest_image(body.domain, place)).gap);
   }
   return body.domain.communicator.min(smallest);
 }
 
 // Time at which a tool that is `gap` (m) from all points first touches one, s after the start; nullopt if not before
-// the end of the run. Between two samples a gap closes by no more than both have moved.
+// the end of the run. A gap closes by no more than both have moved since it was computed.
 std::optional<double> first_touch(const RigidTool& tool, const Body& body, const std::vector<Vector>& velocities,
                                   double start, double duration, double gap) {
   double fastest = 0;
   for (const int i : tool.points) fastest = std::max(fastest, velocities[i].norm());
   fastest = body.domain.communicator.max(fastest);
-  for (int k = 1; k <= samples; ++k) {
-    const double before = duration * (k - 1) / samples, now = duration * k / samples;
-    gap -= fastest * (now - before) + (tool.offset(start + now) - tool.offset(start + before)).norm();
-    if (gap > 0) continue;
-    gap = smallest_gap(tool, body, velocities, start, now);
-    if (gap <= 0) return before;
+  double before = 0, computed = 0;
+  Vector there = tool.offset(start);
+  for (const double time : times_of_path(tool, start, duration)) {
+    const double now = time - start;
+    const Vector offset = tool.offset(time);
+    if (gap <= fastest * (now - computed) + (offset - there).norm()) {
+      gap = smallest_gap(tool, body, velocities, start, now);
+      if (gap <= 0) return before;
+      computed = now, there = offset;
+    }
+    before = now;
   }
   return std::nullopt;
 }
@@ -50,8 +67,8 @@ bool goes_on(const OfTime& of_time, bool is_velocity, double start, double durat
   constexpr double alike = 1e-6;
   const double first = of_time(start), moment = first_moment * duration;
   const double speed = is_velocity ? 0 : (of_time(start + moment) - first) / moment;
-  for (int k = 1; k <= samples; ++k) {
-    const double after = duration * k / samples, value = of_time(start + after);
+  for (const double time : telling_times(of_time.value, of_time.X, start, start + duration, samples)) {
+    const double after = time - start, value = of_time(time);
     const double off = std::abs(value - first - speed * after);
     if (off > alike * std::max(std::abs(value), std::abs(first))) return false;
   }
@@ -78,8 +95,8 @@ constexpr double as_good_as_none = 1e-6;
 // The range of a tool's displacements from its initial position.
 Extent displacements_of(const RigidTool& tool, double start, double duration) {
   Extent displacements;
-  for (int k = 0; k <= samples; ++k)
-    displacements.extend(Vector(tool.offset(start + duration * k / samples) - tool.offset(start)));
+  for (const double time : times_of_path(tool, start, duration))
+    displacements.extend(Vector(tool.offset(time) - tool.offset(start)));
   return displacements;
 }
 
@@ -150,32 +167,11 @@ Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, 
   if (2 * roll.radius >= least_width * spacing) return {};
   const Extent swept = moved(block.places, block.displacements);
   const double around = 0.5 * swept.diagonal().norm() + spacing;
-  for (int k = 0; k <= samples; ++k) {
-    const Vector from = swept.center() - tool.offset(start + duration * k / samples);
+  for (const double time : times_of_path(tool, start, duration)) {
+    const Vector from = swept.center() - tool.offset(time);
     if (surface(roll, from).gap < around) return {2 * roll.radius, spacing, "in diameter"};
   }
   return {};
-}
-
-// The extent of a tool along an axis without its travel, m; empty if it is infinite along the axis.
-using Range = Eigen::AlignedBox<double, 1>;
-Range range_along(const HalfSpace&, int) { return {}; }
-Range range_along(const Box& box, int axis) { return Range(box.lower.segment<1>(axis), box.upper.segment<1>(axis)); }
-Range range_along(const Cylinder& roll, int axis) {
-  if (std::abs(roll.axis[axis]) > as_good_as_none) return {};
-  const Eigen::Matrix<double, 1, 1> middle = roll.point.segment<1>(axis), radius(roll.radius);
-  return Range(middle - radius, middle + radius);
-}
-
-// True if a tool is across one of two sides at some time, but not across both.
-bool is_across_a_side(const RigidTool& tool, const PeriodicSides& sides, double start, double duration) {
-  const Range at_rest = std::visit([&](const auto& shape) { return range_along(shape, sides.axis); }, tool.shape);
-  for (int k = 0; k <= samples && !at_rest.isEmpty(); ++k) {
-    const double offset = tool.offset(start + duration * k / samples)[sides.axis];
-    const double lower = at_rest.min()[0] + offset, upper = at_rest.max()[0] + offset;
-    if ((lower < sides.lower) != (upper > sides.upper)) return true;
-  }
-  return false;
 }
 
 bool meets_block(const RigidTool& tool, int block, const Domain& domain) {
@@ -238,23 +234,6 @@ std::string apart_tools(const Situation& situation) {
   return text.str();
 }
 
-std::string tools_across_sides(const Situation& situation) {
-  const Scene& scene = situation.scene;
-  const std::vector<RigidTool> tools = tools_of(scene.conditions);
-  std::ostringstream text;
-  for (const deck::Condition& condition : situation.deck.conditions) {
-    const auto* sides = std::get_if<PeriodicSides>(&condition.kind);
-    for (std::size_t n = 0; sides && n < tools.size(); ++n) {
-      if (!is_across_a_side(tools[n], *sides, situation.start, situation.duration)) continue;
-      text << "WARNING: the tool '" << scene.tools[n].name << "' is across one of the periodic sides '"
-           << condition.name << "', at " << sides->lower << " and " << sides->upper
-           << " m, at some time: tools have no images, so that it misses the points that come in through the other "
-              "side; expected a tool between the sides, or across both\n";
-    }
-  }
-  return text.str();
-}
-
 std::string meeting_tools(const Situation& situation) {
   const Scene& scene = situation.scene;
   const double start = situation.start, duration = situation.duration;
@@ -272,14 +251,16 @@ std::string meeting_tools(const Situation& situation) {
   for (std::size_t n = 0; n < tools.size(); ++n) {
     for (std::size_t m = 0; m < n; ++m) {
       if (!may_meet(tools[m], tools[n]) || gap_between(tools[m], tools[n], start) < 0) continue;
-      const auto met = [&](int k) { return gap_between(tools[m], tools[n], start + duration * k / samples) < 0; };
-      const double until = std::min(stopped[m], stopped[n]);
-      int k = 1;
-      while (k <= samples && duration * k / samples <= until * (1 + as_good_as_none) && !met(k)) ++k;
-      if (k > samples || duration * k / samples > until * (1 + as_good_as_none)) continue;
+      std::vector<double> times = times_of_path(tools[m], start, duration);
+      std::ranges::copy(times_of_path(tools[n], start, duration), std::back_inserter(times));
+      std::ranges::sort(times);
+      const double until = start + std::min(stopped[m], stopped[n]) * (1 + as_good_as_none);
+      const auto met = [&](double time) { return gap_between(tools[m], tools[n], time) < 0; };
+      const auto first = std::ranges::find_if(times, [&](double time) { return time > until || met(time); });
+      if (first == times.end() || *first > until) continue;
       text
           << "WARNING: the tools '" << scene.tools[m].name << "' and '" << scene.tools[n].name
-          << "' meet by about t = " << start + duration * k / samples
+          << "' meet by about t = " << *first
           << " s, by their paths and the velocities of the start, and pass through each other: tools stop points only; "
              "expected material between them, or an end before (Final Time)\n";
     }

@@ -162,6 +162,11 @@ std::vector<double> sample_times(std::vector<double> changes, double start, doub
   return times;
 }
 
+Trajectory shifted(Trajectory trajectory, const Vector& by) {
+  trajectory.places.translate(by), trajectory.cells.translate(by);
+  return trajectory;
+}
+
 std::vector<Trajectory> trajectories(const Scene& scene, double start, double duration) {
   const Domain& domain = scene.body.domain;
   std::vector<Trajectory> all(domain.cloud.block_names.size());
@@ -201,10 +206,8 @@ std::vector<View> views_of(const Body& body, const std::vector<Trajectory>& all,
 
 std::optional<double> meeting_time(const std::vector<View>& views, double duration, const Vector& shift) {
   double from = 0, to = duration;
-  for (View view : views) {
-    const Vector shift_here = view.axes.transpose() * shift;
-    view.b.places.translate(shift_here), view.b.cells.translate(shift_here);
-    restrict_to_overlap(view.a, view.b, duration, from, to);
+  for (const View& view : views) {
+    restrict_to_overlap(view.a, shifted(view.b, view.axes.transpose() * shift), duration, from, to);
   }
   return from <= to ? std::optional(from) : std::nullopt;
 }

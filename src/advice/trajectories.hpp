@@ -19,6 +19,9 @@ struct Trajectory {
   Eigen::AlignedBox3d places, cells, velocities, displacements;
 };
 
+// The trajectory of an image, m away.
+Trajectory shifted(Trajectory trajectory, const Vector& by);
+
 // Collective. One for each block; initial and prescribed velocities of the start. `start`, `duration`: s.
 std::vector<Trajectory> trajectories(const Scene& scene, double start, double duration);
 
@@ -38,8 +41,7 @@ std::optional<double> meeting_time(const Trajectory& a, const Trajectory& b, dou
 
 // The first time in [0, duration] at which the boxes of cells overlap in all of these views, s; the second block is
 // shifted by `shift`, m.
-std::optional<double> meeting_time(const std::vector<View>& views, double duration,
-                                   const Vector& shift = Vector::Zero());
+std::optional<double> meeting_time(const std::vector<View>& views, double duration, const Vector& shift);
 
 // Displacements of points by conditions up to `time`, which is `step` after the last call; velocities are integrated.
 void move_on(const Conditions& conditions, const Domain& domain, double time, double step,

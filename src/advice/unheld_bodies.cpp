@@ -5,9 +5,9 @@
 #include <limits>
 #include <span>
 #include <sstream>
+#include <utility>
 
 #include "advice/checks.hpp"
-#include "base/parallel/gather_scatter.hpp"
 #include "base/text.hpp"
 #include "setup/found_points.hpp"
 #include "topology/pieces.hpp"
@@ -82,19 +82,9 @@ void sum(const Communicator& ranks, std::vector<Piece>& pieces, auto&& numbers_o
 }
 
 Pieces pieces_of(const Domain& domain) {
-  const std::vector<std::int64_t> ids = piece_ids(domain);
-  std::vector<std::int64_t> first;
-  for (int i = 0; i < domain.owned; ++i) {
-    if (ids[i] == domain.id(i)) first.push_back(ids[i]);
-  }
-  first = gather(domain.communicator, std::span<const std::int64_t>(first));
-  std::ranges::sort(first);
-  domain.communicator.broadcast(first);
-  Pieces pieces;
-  for (const std::int64_t id : ids) {
-    pieces.of.push_back(static_cast<int>(std::ranges::lower_bound(first, id) - first.begin()));
-  }
-  pieces.all.assign(first.size(), {.of_block = std::vector<double>(domain.blocks.size(), 0)});
+  auto [of, count] = numbered_pieces(domain);
+  Pieces pieces{.of = std::move(of)};
+  pieces.all.assign(count, {.of_block = std::vector<double>(domain.blocks.size(), 0)});
   for (int i = 0; i < domain.owned; ++i) {
     Piece& piece = pieces.all[pieces.of[i]];
     ++piece.of_block[domain.cloud.blocks[i]];
@@ -144,7 +134,7 @@ void hold_by_tools(const Scene& scene, double start, Pieces& pieces) {
     const Vector offset = tool.offset(start);
     for (const int i : tool.points) {
       ++pieces.all[pieces.of[i]].reached;
-      const Vector place = scene.body.current(i) - offset;
+      const Vector place = tool.nearest_image(domain, scene.body.current(i) - offset);
       const Surface at = tool.met_by(i, tool.shape, place);
       if (at.gap < touching * domain.cloud.spacings[i]) {
         pieces.all[pieces.of[i]].hold(domain.reference(i), at.normal);

@@ -100,19 +100,34 @@ Approach approach(const Trajectory& a, const Trajectory& b) {
   return {least.norm(), most.norm()};
 }
 
-// Collective. The approach of two blocks that meet, in the view that has them farthest apart: no box tells of more than
-// there is between them.
-Approach approach(const Situation& situation, int a, int b) {
-  const std::vector<Trajectory>& all = situation.trajectories;
-  if (!meeting_time(all[a], all[b], situation.duration)) return {};
-  const std::vector<View> views = views_of(situation.scene.body, all, a, b);
-  if (!meeting_time(views, situation.duration)) return {};
-  const View* widest = &views.front();
-  const auto apart = [](const View& view) { return view.a.places.exteriorDistance(view.b.places); };
+// The approach in the view that has them farthest apart: no box tells of more than there is between them.
+Approach approach(const std::vector<View>& views, const Vector& shift) {
+  Approach widest;
+  double most = -1;
   for (const View& view : views) {
-    if (apart(view) > (1 + 1e-6) * apart(*widest)) widest = &view;
+    const Trajectory b = shifted(view.b, view.axes.transpose() * shift);
+    const double apart = view.a.places.exteriorDistance(b.places);
+    if (apart > (1 + 1e-6) * most) most = apart, widest = approach(view.a, b);
   }
-  return approach(widest->a, widest->b);
+  return widest;
+}
+
+// Collective. The fastest approach of two blocks that meet, or of one to an image of the other one period away.
+Approach approach(const Situation& situation, int a, int b) {
+  const Domain& domain = situation.scene.body.domain;
+  const std::vector<Trajectory>& all = situation.trajectories;
+  const Images images(domain.periods, 0);
+  Approach fastest;
+  std::vector<View> views;  // empty until boxes along the axes of space meet
+  for (int image = 0; image < images.count(); ++image) {
+    const Vector shift = images[image].stretched(domain.halo.stretch()).shift;
+    if (!meeting_time(all[a], shifted(all[b], shift), situation.duration)) continue;
+    if (views.empty()) views = views_of(situation.scene.body, all, a, b);
+    if (!meeting_time(views, situation.duration, shift)) continue;
+    const Approach one = approach(views, shift);
+    if (one.most > fastest.most) fastest = one;
+  }
+  return fastest;
 }
 
 // The pressure in an impact of elastic bodies, Pa.

@@ -39,11 +39,12 @@ Crossing crossing_of(const S& shape, const RigidTool& tool, const Vector& offset
   Crossing found;
   for (const int i : tool.points) {
     const double h = domain.cloud.spacings[i], longest = edges_of_cell(domain, i).longest;
-    if (surface(shape, places[i] - offset).gap > 2 * nearest_neighbors * longest) continue;
+    const Vector here = tool.nearest_image(domain, places[i] - offset);
+    if (surface(shape, here).gap > 2 * nearest_neighbors * longest) continue;
     domain.families.for_each(i, [&](int j) {
       const Vector xi = domain.reference(j) - domain.reference(i);
       const bool is_near = xi.norm() <= nearest_neighbors * std::max(h, edge_of_cell(domain, i, xi.normalized()));
-      if (is_near && is_between(shape, places[i] - offset, places[j] - offset, least_depth * h)) found = {i, j};
+      if (is_near && is_between(shape, here, here + places[j] - places[i], least_depth * h)) found = {i, j};
     });
     if (found.point >= 0) break;
   }

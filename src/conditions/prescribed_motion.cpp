@@ -1,6 +1,8 @@
 #include "conditions/prescribed_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/math/time_integral.hpp"
 #include "conditions/velocity_update.hpp"
@@ -12,20 +14,23 @@ namespace {
 // Component c of the velocity that moves point i along the motion in its next step.
 double imposed_velocity(const PrescribedMotion& motion, int c, int i, const VelocityUpdate& update) {
   const Body& body = update.body;
-  const auto value = [&](double time) { return motion.value(body.domain.reference(i), time); };
+  const auto value = [&](double time) { return update.steps.value(motion.value, body.domain.reference(i), time); };
   const double dt = update.steps.of(i);
   if (motion.is_velocity) return update.steps.velocity_after(value, update.t, dt);
   const double target = body.domain.reference(i)[c] + update.steps.after(value, update.t, dt);
   return (target - body.domain.sites[i].current[c]) / dt;
 }
 
-// The slope of a displacement at t, m/s, to second order in `moment`: for one that grows with t² it is 0. If the value
-// jumps at t, the mean slope over `moment`, which the first step imposes; if the motion begins later, 0.
+// The slope of a displacement at t, m/s, to second order in a short part of `moment`: for one that grows with t² it is
+// 0. If the value jumps at t, or grows there as fast as a root, the mean slope over `moment`, which the first step
+// imposes; if the motion begins later, 0.
 double slope_of(const auto& value, double t, double moment) {
-  const double half = value(t + 0.5 * moment) - value(t), whole = value(t + moment) - value(t);
-  const double slope = (4 * half - whole) / moment, mean = whole / moment;
-  if (slope * mean <= 0) return 0;
-  return std::abs(slope) > 2 * std::abs(mean) ? mean : slope;
+  const double resolved = 1e4 * std::numeric_limits<double>::epsilon() * std::abs(t);  // s
+  const double part = std::min(moment, std::max(moment / 1024, resolved)), at = value(t);
+  const double half = value(t + 0.5 * part) - at, whole = value(t + part) - at;
+  if (std::abs(whole) < 1.5 * std::abs(half)) return (value(t + moment) - at) / moment;
+  const double slope = (4 * half - whole) / part;
+  return slope * whole > 0 ? slope : 0;
 }
 
 // All points for one component after the other, which equals one condition per component to the last bit.
@@ -62,9 +67,8 @@ void PrescribedMotion::predict_velocities(double t, double moment, const Body& b
 
 std::vector<HeldDirection> PrescribedMotion::held_directions(const Body& body, double t, double dt) const {
   // A load step may be as long as the run: a velocity is integrated over it.
-  const std::vector<double> turns = is_velocity ? numbers_in(value.text()) : std::vector<double>();
   const auto value_at = [&](const Vector& X) {
-    return is_velocity ? time_integral(value, X, t, t + dt, turns) : value(X, t + dt);
+    return is_velocity ? time_integral(value, X, t, t + dt) : value(X, t + dt);
   };
   const bool is_common = !value.depends_on_position() && !points.empty();
   const double common = is_common ? value_at(Vector::Zero()) : 0;

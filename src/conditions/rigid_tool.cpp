@@ -98,8 +98,9 @@ class ToolMotion {
     if (tool_.free) return tool_.offset(t_ + dt);
     Vector sum = Vector::Zero();
     for (int c = 0; c < 3; ++c) {
-      if (tool_.travel[c])
-        sum[c] = steps_.after([&](double time) { return (*tool_.travel[c])(0, 0, 0, time); }, t_, dt);
+      if (!tool_.travel[c]) continue;
+      const auto travel = [&](double time) { return steps_.value(*tool_.travel[c], Vector::Zero(), time); };
+      sum[c] = steps_.after(travel, t_, dt);
     }
     return sum;
   }
@@ -152,7 +153,7 @@ void for_each_change(const RigidTool& tool, const VelocityUpdate& update, const 
   const auto keep_out = [&](const auto& shape) {
     for (const int i : tool.points) {
       const double dt = update.steps.of(i);
-      const Vector place = update.body.current(i) - motion.offset();
+      const Vector place = tool.nearest_image(update.body.domain, update.body.current(i) - motion.offset());
       const Vector relative = update.body.velocity[i] - motion.velocity(update.steps.level(i));
       Surface at = tool.met_by(i, shape, place);
       choose_face(shape, place, relative, at);
@@ -202,13 +203,21 @@ Vector RigidTool::offset(double t) const {
   return sum;
 }
 
+Vector RigidTool::nearest_image(const Domain& domain, Vector place) const {
+  for (const Period& period : domain.periods) {
+    const Vector step = domain.halo.stretch()[period.axis] * period.length * Vector::Unit(period.axis);
+    place += steps_to(shape, place, step) * step;
+  }
+  return place;
+}
+
 void RigidTool::set_reaches(double t, const Body& body, BodyAt from) {
   const Domain& domain = body.domain;
   if (domain.cloud.at == PointsAt::nodes) return;
   auto all = std::make_shared<std::vector<double>>(body.owned(), 0);
   for (const int i : points) {
     const Vector place = from == BodyAt::mesh ? domain.reference(i) : body.current(i);
-    const Surface at = surface(shape, place - offset(t));
+    const Surface at = surface(shape, nearest_image(domain, place - offset(t)));
     const double reach = reach_of_cell(domain.cloud, domain.volume(i), i, -at.normal);
     (*all)[i] = std::clamp(at.gap, 0.0, reach);
   }

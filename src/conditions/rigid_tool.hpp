@@ -17,6 +17,7 @@
 namespace strut {
 
 struct Body;
+struct Domain;
 struct ImpulseWork;
 struct Mirror;
 
@@ -83,6 +84,8 @@ struct RigidTool {
 
   // Its travel at time t (s), m. A position y sees its surface as y − offset(t) sees `shape`.
   Vector offset(double t) const;
+  // This place y − offset(t), or that of an image of it through the periodic sides, which is nearest to the tool.
+  Vector nearest_image(const Domain& domain, Vector place) const;
   // Its surface, for one kind S of shape or for any, as the cell of point i meets it from the position y − offset(t).
   template <class S>
   Surface met_by(int i, const S& kind, const Vector& place) const {

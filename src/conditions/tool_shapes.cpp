@@ -87,6 +87,29 @@ bool is_own_image(const Shape& shape, const Vector& on, const Vector& n) {
   return std::visit([&](const auto& one) { return is_own_image(one, on, n); }, shape);
 }
 
+namespace {
+
+Vector from_middle(const HalfSpace& half, const Vector& place) {
+  return half.normal.dot(place - half.point) * half.normal;
+}
+Vector from_middle(const Cylinder& cylinder, const Vector& place) {
+  const Vector from_point = place - cylinder.point;
+  return from_point - cylinder.axis.dot(from_point) * cylinder.axis;
+}
+Vector from_middle(const Box& box, const Vector& place) { return place - 0.5 * (box.lower + box.upper); }
+
+}  // namespace
+
+double steps_to(const Shape& shape, const Vector& place, const Vector& step) {
+  return std::visit(
+      [&](const auto& one) {
+        const Vector from = from_middle(one, place), across = from_middle(one, place + step) - from;
+        const bool is_along = across.norm() < digits_of_decks * step.norm();  // every step sees the same
+        return is_along ? 0 : -std::nearbyint(from.dot(across) / across.squaredNorm());
+      },
+      shape);
+}
+
 Surface surface(const Shape& shape, const Vector& place) {
   return std::visit([&](const auto& one) { return surface(one, place); }, shape);
 }

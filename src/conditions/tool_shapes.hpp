@@ -47,6 +47,10 @@ Surface surface(const Cylinder& cylinder, const Vector& place);
 Surface surface(const Box& box, const Vector& place);
 Surface surface(const Shape& shape, const Vector& place);
 
+// The number of steps along a direction that takes a position nearest to the middle of a shape: its point, axis or
+// plane.
+double steps_to(const Shape& shape, const Vector& place, const Vector& step);
+
 // The accuracy of directions and relative positions that decks give by their digits.
 constexpr double digits_of_decks = 1e-5;
 

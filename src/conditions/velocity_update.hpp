@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/math/function.hpp"
 #include "conditions/impulse_work.hpp"
 #include "conditions/reactions.hpp"
 #include "mechanics/body.hpp"
@@ -22,22 +23,28 @@ struct PointTimeSteps {
   int level(int i) const { return !levels || levels->empty() ? 0 : (*levels)[i]; }
   double of(int i) const { return level(i) == 0 ? whole : std::ldexp(whole, -level(i)); }
   double of_impulse(int i) const { return impulse * of(i); }
+  // The value at a time; at the final time it need not be a number later.
+  double value(const Function& motion, const Vector& X, double time) const {
+    return none_follows ? motion.evaluate(X, time) : motion(X, time);
+  }
   // The value at t + dt (s) of the motion value(t). At the final time a motion that ends then, such as a table at its
-  // last row, goes on at its last velocity: else the output would contain velocities of the stop.
+  // last row or where its value is no number any more, goes on at its last velocity: else the output would contain
+  // velocities of the stop.
   template <class Motion>
   double after(const Motion& value, double t, double dt) const {
     const double next = value(t + dt);
-    return none_follows && next == value(t + 2 * dt) ? 2 * value(t) - value(t - dt) : next;
+    const bool ends = none_follows && (!std::isfinite(next) || next == value(t + 2 * dt));
+    return ends ? 2 * value(t) - value(t - dt) : next;
   }
   // The velocity over dt (s) from t of a motion that has the velocity `value` at a time. At the final time one that
   // ends there goes on as before, too, also where its value has jumped by then.
   template <class Velocity>
   double velocity_after(const Velocity& value, double t, double dt) const {
     const double next = value(t + 0.5 * dt);
-    if (!none_follows || next != value(t + 1.5 * dt)) return next;
+    if (!none_follows || (std::isfinite(next) && next != value(t + 1.5 * dt))) return next;
     const double now = value(t), before = value(t - 0.5 * dt);
-    const bool has_jumped = std::abs(now - before) > 2 * std::abs(before - value(t - dt));
-    return has_jumped ? before : 2 * now - before;
+    const bool goes_on = std::abs(now - before) <= 2 * std::abs(before - value(t - dt));
+    return goes_on ? 2 * now - before : before;
   }
 };
 

@@ -177,10 +177,10 @@ int line_with_hidden_comment(const std::string& text) {
 }
 
 // Puts quotes around the plain value at `begin` if it has a '>' or '|'. Returns where it ends: before a comment, and
-// within braces before the next value.
-std::size_t quote_plain_value(std::string& line, std::size_t begin, bool in_braces) {
+// within brackets before the next value.
+std::size_t quote_plain_value(std::string& line, std::size_t begin, bool in_brackets) {
   std::size_t end = std::min(line.find(" #", begin), line.size());
-  if (in_braces) end = std::min(end, line.find_first_of(",{}[]", begin));
+  if (in_brackets) end = std::min(end, line.find_first_of(",{}[]", begin));
   const std::string value(trimmed(line.substr(begin, end - begin)));
   const char quote = value.find_first_of("\"\\") == std::string::npos ? '"' : '\'';
   const bool is_text = value.find(quote) == std::string::npos && value.find(": ") == std::string::npos;
@@ -203,19 +203,27 @@ std::size_t closing_quote(const std::string& line, std::size_t begin) {
   return std::string::npos;
 }
 
-// The same for all values of a line; `brackets`: that are open. False if a quote does not close in the line.
-bool quote_plain_values(std::string& line, int& brackets) {
+// The same for all values of a line, and items of lists; `brackets`: that are open. False if a quote does not close in
+// the line.
+bool quote_plain_values(std::string& line, std::string& brackets) {
   char before = '-';  // the last character that is no blank
+  const std::size_t dash = line.find_first_not_of(' ');
+  const auto begins_value = [&](std::size_t i) {
+    if (before == ':') return line[i - 1] == ' ';
+    if (brackets.empty()) return i > dash && before == '-' && line[dash] == '-' && line[i - 1] == ' ';
+    return brackets.back() == '[' && (before == '[' || before == ',');
+  };
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
     if (c == '#') return true;
     if ((c == '\'' || c == '"') && std::string_view(":,[{-").find(before) != std::string_view::npos) {
       i = closing_quote(line, i);
       if (i == std::string::npos) return false;
-    } else if (before == ':' && line[i - 1] == ' ' && std::string_view(" {}[],>|&*!%@`").find(c) == std::string::npos) {
-      i = quote_plain_value(line, i, brackets > 0) - 1;
+    } else if (begins_value(i) && std::string_view(" {}[],>|&*!%@`").find(c) == std::string::npos) {
+      i = quote_plain_value(line, i, !brackets.empty()) - 1;
     }
-    brackets += (c == '{' || c == '[') - (c == '}' || c == ']');
+    if (c == '{' || c == '[') brackets += c;
+    if ((c == '}' || c == ']') && !brackets.empty()) brackets.pop_back();
     if (c != ' ') before = line[i];
   }
   return true;
@@ -226,8 +234,7 @@ bool quote_plain_values(std::string& line, int& brackets) {
 std::string with_quotes(const std::string& text) {
   std::istringstream lines(text);
   LinesOfTexts texts;
-  std::string all;
-  int brackets = 0;
+  std::string all, brackets;
   for (std::string line; std::getline(lines, line);) {
     if (!texts.have(line) && !quote_plain_values(line, brackets)) return text;
     all += line + "\n";

@@ -48,25 +48,48 @@ double work_of_expansion(const Body& body) {
   return sum;
 }
 
+namespace {
+
+void add_energies(const Body& body, const MaterialBlock& block, Energies& sum) {
+  for (std::size_t k = 0; k < block.points.size(); ++k) {
+    const double volume = body.domain.volume(block.points[k]);
+    const PointEnergy of_point =
+        block.is_ordinary() ? PointEnergy{.elastic = block.ordinary[k].energy} : law_energy(body, block, k);
+    sum.elastic += volume * of_point.elastic;
+    sum.dissipated += volume * (of_point.dissipated - of_point.cracks);
+    sum.fracture += volume * of_point.cracks;
+    sum.heat += volume * of_point.heat;
+  }
+}
+
+// Collective.
+Energies over_all_ranks(const Energies& sum, const Communicator& ranks) {
+  double values[] = {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.expansion, sum.heat};
+  ranks.sum(values);
+  return {values[0], values[1], values[2], values[3], values[4], values[5]};
+}
+
+}  // namespace
+
 Energies stored_energies(const Body& body) {
   Energies sum;
-  for (const MaterialBlock& block : body.blocks) {
-    for (std::size_t k = 0; k < block.points.size(); ++k) {
-      const double volume = body.domain.volume(block.points[k]);
-      const PointEnergy of_point =
-          block.is_ordinary() ? PointEnergy{.elastic = block.ordinary[k].energy} : law_energy(body, block, k);
-      sum.elastic += volume * of_point.elastic;
-      sum.dissipated += volume * (of_point.dissipated - of_point.cracks);
-      sum.fracture += volume * of_point.cracks;
-      sum.heat += volume * of_point.heat;
-    }
-  }
+  for (const MaterialBlock& block : body.blocks) add_energies(body, block, sum);
   sum.stabilization = total(0, body.owned(), [&](int i) { return body.stabilization_work(i) * body.domain.volume(i); });
   sum.fracture = std::accumulate(body.fracture_energy.begin(), body.fracture_energy.end(), sum.fracture);
   sum.expansion = work_of_expansion(body);
-  double values[] = {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.expansion, sum.heat};
-  body.domain.communicator.sum(values);
-  return {values[0], values[1], values[2], values[3], values[4], values[5]};
+  return over_all_ranks(sum, body.domain.communicator);
+}
+
+std::vector<Energies> stored_energies_of_bodies(const Body& body) {
+  const Domain& domain = body.domain;
+  std::vector<Energies> sums(domain.body_count());
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    Energies& sum = sums[domain.blocks[b].body];
+    add_energies(body, body.blocks[b], sum);
+    for (const int i : body.blocks[b].points) sum.stabilization += body.stabilization_work(i) * domain.volume(i);
+  }
+  for (Energies& sum : sums) sum = over_all_ranks(sum, domain.communicator);
+  return sums;
 }
 
 }  // namespace strut

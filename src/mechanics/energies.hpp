@@ -1,6 +1,8 @@
 // The energies that a body stores and has dissipated.
 #pragma once
 
+#include <vector>
+
 #include "mechanics/body.hpp"
 
 namespace strut {
@@ -28,5 +30,8 @@ double work_of_expansion(const Body& body);
 
 // Collective: sums over all ranks. Call it after a stress update with diagnostics.
 Energies stored_energies(const Body& body);
+
+// Collective, likewise. Of each body of the domain alone, without the energies of expansion and of broken bonds.
+std::vector<Energies> stored_energies_of_bodies(const Body& body);
 
 }  // namespace strut

@@ -84,20 +84,19 @@ std::vector<int> moving_points(const Body& body, const std::vector<int>* moved, 
   return points;
 }
 
-// The force on some points through their bonds to the images that `picks` selects, N. Only ends with a time-step level
-// of at least `level` act; the point's own state also acts through bonds to other images.
+// Calls visit(point, force on it in N through its bonds to the images that `picks` selects) for some points. Only ends
+// with a time-step level of at least `level` act; the point's own state also acts through bonds to other images.
 template <class Picks>
-Vector image_force(const Body& body, const std::vector<int>& points, int level, const Picks& picks) {
+void for_each_image_force(const Body& body, const std::vector<int>& points, int level, const Picks& picks,
+                          const auto& visit) {
   const auto acts = [&](int j) { return picks(j) && body.is_active(j, level); };
-  Vector sum = Vector::Zero();
   bonds::with_influence(body.influence, [&](auto weight) {
     for (const int i : points) {
       const OfImages<Picks> family{{i}, body.domain.families, picks};
       const OfImages<decltype(acts)> active{{i}, body.domain.families, acts};
-      sum += body.domain.volume(i) * force_of(body, family, active, body.is_active(i, level), weight);
+      visit(i, Vector(body.domain.volume(i) * force_of(body, family, active, body.is_active(i, level), weight)));
     }
   });
-  return sum;
 }
 
 // For each site, how many periods it is above its original; 0 for sites that are no images.
@@ -110,26 +109,30 @@ std::vector<int> periods_above(const Domain& domain, const Period& period) {
 }  // namespace
 
 // A bond over a side is in two families, at either side, once by an image above and once by one below.
-std::vector<Vector> period_forces(const Body& body, int level, const std::vector<int>* moved) {
+void for_each_period_force(const Body& body, int level, const std::vector<int>* moved,
+                           const std::function<void(int, std::size_t, double)>& visit) {
   const Domain& domain = body.domain;
   // Images are ghosts: points of the interior have none in their families.
   const std::vector<int> points = moving_points(body, moved, [&](int i) { return i >= domain.interior; });
-  std::vector<Vector> forces;
-  for (const Period& period : domain.periods) {
-    const std::vector<int> above = periods_above(domain, period);
-    double force = 0;
+  for (std::size_t m = 0; m < domain.periods.size(); ++m) {
+    const int axis = domain.periods[m].axis;
+    const std::vector<int> above = periods_above(domain, domain.periods[m]);
     for (const int n : std::set<int>(above.begin(), above.end())) {
       const auto picks = [&](int j) { return above[j] == n; };
-      if (n != 0) force += 0.5 * n * image_force(body, points, level, picks)[period.axis];
+      const auto half = [&](int i, const Vector& force) { visit(i, m, 0.5 * n * force[axis]); };
+      if (n != 0) for_each_image_force(body, points, level, picks, half);
     }
-    forces.emplace_back(force * Vector::Unit(period.axis));
   }
-  return forces;
 }
 
 std::vector<Vector> mirror_forces(const Body& body, int level, const std::vector<int>* moved) {
   const Domain& domain = body.domain;
-  if (!domain.periods.empty()) return period_forces(body, level, moved);
+  if (!domain.periods.empty()) {
+    std::vector<Vector> forces(domain.periods.size(), Vector::Zero());
+    for_each_period_force(body, level, moved,
+                          [&](int, std::size_t m, double force) { forces[m][domain.periods[m].axis] += force; });
+    return forces;
+  }
   const auto points_of = [&](int number) {
     return moving_points(body, moved, [&](int i) { return domain.body_of(i) == number; });
   };
@@ -139,7 +142,11 @@ std::vector<Vector> mirror_forces(const Body& body, int level, const std::vector
     return sum;
   };
   const auto of_images = [&](int number, const std::vector<char>& behind) {
-    return image_force(body, points_of(number), level, [&](int j) { return behind[j]; });
+    Vector sum = Vector::Zero();
+    for_each_image_force(
+        body, points_of(number), level, [&](int j) { return behind[j]; },
+        [&](int, const Vector& force) { sum += force; });
+    return sum;
   };
   return mirror_reactions(domain, {on_body, of_images});
 }

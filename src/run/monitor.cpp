@@ -21,6 +21,9 @@ constexpr int first_ledgers = 10;
 // of explicit finite elements accept 5 to 10 % of hourglass energy. In the first microseconds of an impact it is more.
 constexpr double much_in_springs = 0.1;
 
+// Bodies that have taken up less than this part of what all have do not count: one that was hardly touched.
+constexpr double least_of_all = 1e-3;
+
 // Stretch of neighbors, in spacings, above which the material between them is not resolved any more.
 constexpr double far_stretched = 8;
 
@@ -371,19 +374,31 @@ void Monitor::check_failed(double time) {
 }
 
 void Monitor::check_resolution(const Ledger& ledger, bool last) {
-  if (last) check_springs(ledger);
+  if (last) check_springs(ledger.time);
   if (!warned_[stretch]) check_stretch(ledger.time);
 }
 
-void Monitor::check_springs(const Ledger& ledger) {
-  const double internal = ledger.elastic + ledger.dissipated;
-  if (!(ledger.dissipated > ledger.elastic && ledger.stabilization > much_in_springs * internal)) return;
+void Monitor::check_springs(double time) {
+  const std::vector<Energies> bodies = stored_energies_of_bodies(body_);
+  const auto taken_up = [](const Energies& one) { return one.elastic + one.dissipated; };
+  double all = 0, most = much_in_springs;
+  for (const Energies& one : bodies) all += taken_up(one);
+  int worst = -1;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Energies& one = bodies[b];
+    const bool counts = one.dissipated > one.elastic && taken_up(one) > least_of_all * all;
+    if (!counts || !(one.stabilization > most * taken_up(one))) continue;
+    worst = static_cast<int>(b), most = one.stabilization / taken_up(one);
+  }
+  if (worst < 0) return;
+  const Domain& domain = body_.domain;
+  const auto block = std::ranges::find(domain.blocks, worst, &BlockHorizons::body) - domain.blocks.begin();
   warn(springs,
-       text_of(
-           at(ledger.time), "the springs of the stabilization hold ", 100 * ledger.stabilization / internal,
-           " % of what the body has taken up; up to 10 % is usual. The motion is finer than the points resolve: expect "
-           "wrong stresses. Likely causes: too few points, metal that is too soft to hold together, another "
-           "Stabilization Coefficient than the default"));
+       text_of(at(time), "the springs of the stabilization hold ", 100 * most, " % of what the body of block ",
+               domain.cloud.block_names[block],
+               " has taken up; up to 10 % is usual. The motion is finer than the points resolve: expect "
+               "wrong stresses. Likely causes: too few points, metal that is too soft to hold together, another "
+               "Stabilization Coefficient than the default"));
 }
 
 // The largest stretch of a point with all its bonds is at most the norm of F.

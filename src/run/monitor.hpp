@@ -74,7 +74,7 @@ class Monitor {
   void warn(What what, const std::string& text);
   void check_meeting(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools);
   void warn_if_negative(What what, const char* name, double energy, const Ledger& ledger, const char* causes);
-  void check_springs(const Ledger& ledger);
+  void check_springs(double time);
   void check_stretch(double time);
 
   deck::Watch limits_;

@@ -227,7 +227,7 @@ std::string fragment_table(const Body& body) {
   const std::int64_t broken = body.domain.communicator.sum(broken_bonds(body));
   if (broken == 0) return "no bond broke\n";
   const std::vector<Fragment> all = fragments(body);
-  std::string text = formatted("%lld bonds broke; %zu fragments:\n%12s %12s %12s   velocity, m/s\n",
+  std::string text = formatted("%lld bonds are broken; %zu fragments:\n%12s %12s %12s   velocity, m/s\n",
                                static_cast<long long>(broken / 2), all.size(), "point", "points", "mass, kg");
   for (std::size_t f = 0; f < std::min(most, all.size()); ++f) {
     const auto& [id, points, mass, v] = all[f];

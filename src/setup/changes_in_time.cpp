@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/math/time_integral.hpp"
 #include "topology/bounding_box.hpp"
@@ -46,10 +47,10 @@ std::vector<double> thinned(const std::vector<double>& times, int most) {
 }
 
 Jump largest_jump(const OfTime& of_time, const Steps& steps, double least) {
-  const double apart = (steps.end - steps.start) / samples_in_a_run;
+  const std::vector<double> times = telling_times(of_time.value, of_time.X, steps.start, steps.end, samples_in_a_run);
   Jump worst;
-  for (int k = 0; k < samples_in_a_run; ++k) {
-    const double a = steps.start + k * apart, b = a + std::max(apart, steps.longest);
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const double a = times[k - 1], b = std::max(times[k], a + steps.longest);
     if (!(std::abs(of_time(b) - of_time(a)) > 0.5 * least)) continue;  // a half, if it goes on beyond b
     const double near = jump_between(of_time, a, b, steps.longest).time;
     for (const double part : {1.0, 0.75, 0.5, 0.25, 0.0}) {
@@ -64,21 +65,43 @@ Jump largest_jump(const OfTime& of_time, const Steps& steps, double least) {
 }
 
 std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end) {
-  const auto time = [&](int k) { return start + (end - start) * k / samples_in_a_run; };
+  const std::vector<double> times = telling_times(of_time.value, of_time.X, start, end, samples_in_a_run);
   std::vector<double> samples;
   double largest = 0;
-  for (int k = 0; k <= samples_in_a_run; ++k) {
-    samples.push_back(of_time(time(k)));
+  for (const double t : times) {
+    samples.push_back(of_time(t));
     largest = std::max(largest, std::abs(samples.back()));
   }
   std::vector<Jump> jumps;
   if (std::abs(samples.front()) > 0.1 * largest) jumps.push_back({start, std::abs(samples.front())});
-  for (int k = 0; k < samples_in_a_run; ++k) {
-    if (!(std::abs(samples[k + 1] - samples[k]) > 0.1 * largest)) continue;
-    const Jump jump = jump_between(of_time, time(k), time(k + 1));
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    if (!(std::abs(samples[k] - samples[k - 1]) > 0.1 * largest)) continue;
+    const Jump jump = jump_between(of_time, times[k - 1], times[k]);
     if (jump.length > 0.1 * largest) jumps.push_back(jump);
   }
   return jumps;
+}
+
+// By ternary search, and by its growth toward this time: a root's inverse grows by a factor of 32.
+std::optional<double> pole_of(const OfTime& of_time, double start, double end) {
+  constexpr double nearer = 1024, growth = 64;
+  const double apart = (end - start) / samples_in_a_run;
+  const auto size = [&of_time](double t) { return std::abs(of_time(t)); };
+  double highest = start;
+  for (int k = 1; k <= samples_in_a_run; ++k) {
+    if (size(start + k * apart) > size(highest)) highest = start + k * apart;
+  }
+  double from = std::max(start, highest - apart), to = std::min(end, highest + apart);
+  for (int n = 0; n < 2 * halvings; ++n) {
+    const double low = from + (to - from) / 3, high = to - (to - from) / 3;
+    (size(low) < size(high) ? from : to) = size(low) < size(high) ? low : high;
+  }
+  const double at = 0.5 * (from + to);
+  const double near = std::max(1e-6 * apart, 1e7 * std::numeric_limits<double>::epsilon() * std::abs(at));
+  const auto size_beside = [&](double away) { return std::fmax(size(at - away), size(at + away)); };
+  const double next_to_it = size_beside(near / nearer);
+  if (next_to_it > growth * size_beside(near) || std::isinf(next_to_it)) return at;
+  return std::nullopt;
 }
 
 Where where(const std::vector<int>& points, const Body& body) {
@@ -97,14 +120,16 @@ void over_the_box(const Function& value, const Where& where, const std::function
   for (int place = 0; place < (value.depends_on_position() ? 27 : 1); ++place) {
     const Vector part(0.5 * (place % 3), 0.5 * (place / 3 % 3), 0.5 * (place / 9));
     const Vector X = where.box.min() + part.cwiseProduct(where.box.sizes());
-    visit([&](double t) { return value.evaluate(X, t); });
+    visit({value, X});
   }
 }
 
 std::vector<double> changes_of(const Function& value, const Where& where, double start, double end) {
   if (!value.depends_on_time()) return {};
-  std::vector<double> times = numbers_in(value.text());
+  const std::vector<double> samples = uneven_times(start, end, samples_in_a_run);
+  std::vector<double> times;
   over_the_box(value, where, [&](const OfTime& of_time) {
+    std::ranges::copy(value.turns(of_time.X, samples), std::back_inserter(times));
     for (const Jump& jump : jumps_of(of_time, start, end)) times.push_back(jump.time);
   });
   std::erase_if(times, [&](double t) { return !(t > start && t < end); });

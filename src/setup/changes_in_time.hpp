@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/math/function.hpp"
@@ -11,7 +12,12 @@
 
 namespace strut {
 
-using OfTime = std::function<double(double)>;
+// A value at a place.
+struct OfTime {
+  const Function& value;
+  Vector X;
+  double operator()(double t) const { return value.evaluate(X, t); }
+};
 
 constexpr int samples_in_a_run = 1000;  // samples of a function of time
 
@@ -31,6 +37,10 @@ Jump largest_jump(const OfTime& of_time, const Steps& steps, double least);
 // The jumps of `of_time`, which is 0 before the start, by a tenth of its largest value or more, in order.
 std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end);
 
+// A time at which `of_time` goes to infinity so fast that no integral over it exists, near its largest sample; nullopt
+// without one.
+std::optional<double> pole_of(const OfTime& of_time, double start, double end);
+
 // The box of the points of a condition over all ranks, and their least spacing, m.
 struct Where {
   Eigen::AlignedBox3d box;
@@ -44,8 +54,8 @@ Where where(const std::vector<int>& points, const Body& body);
 // faces, or once if it does not depend on place.
 void over_the_box(const Function& value, const Where& where, const std::function<void(const OfTime&)>& visit);
 
-// Times in a run, s, in order, at which the value may turn or jump: its jumps, and the numbers of its text, among
-// which are the places of its tables, and the middles between these.
+// Times in a run, s, in order, at which the value may turn or jump: its jumps and its turns, and the middles between
+// these.
 std::vector<double> changes_of(const Function& value, const Where& where, double start, double end);
 
 // Every n-th of the times, with the least n that leaves `most` at most.

@@ -163,6 +163,7 @@ std::string check_next_steps(const deck::Deck& deck, const PointsOfConditions& p
     }
   }
   check_open_ends(next, ends, body, problems);
+  check_poles(next, points, body, problems);
   return sudden_motions(next, points, body) + sampled_pulses(next, points, body);
 }
 
@@ -236,6 +237,7 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
   for (const deck::Condition& one : deck.conditions) points.push_back(points_of(scene.body.domain.cloud, one.node_set));
   scene.warnings += let_the_last_count(deck, scene.body, points);
   check_contradictions(deck, points, scene.body, problems);
+  check_poles(deck, points, scene.body, problems);
   const bool displaces = std::ranges::any_of(deck.conditions, is_initial_displacement);
   if (!deck.start_from && !displaces) scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   if (mesh_time == deck.solver.initial_time) {  // else these warnings came before the equilibria

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <variant>
 
+#include "base/math/time_integral.hpp"
 #include "setup/changes_in_time.hpp"
 #include "setup/found_points.hpp"
 
@@ -150,6 +152,23 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
   return reported.str();
 }
 
+void check_poles(const deck::Deck& deck, const PointsOfConditions& points, const Body& body, deck::Problems& problems) {
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    for (const Function& value : sampled_values(deck.conditions[c])) {
+      if (!value.depends_on_time()) continue;
+      std::optional<double> pole;
+      over_the_box(value, where(points[c], body), [&](const OfTime& of_time) {
+        if (!pole) pole = pole_of(of_time, deck.solver.initial_time, deck.solver.final_time);
+      });
+      if (!pole) continue;
+      std::ostringstream text;
+      text << value.path() << ": '" << value.text() << "' goes to infinity at t = " << *pole
+           << " s, so that it has no integral over time; expected a value that is finite throughout the run";
+      problems.add(text.str());
+    }
+  }
+}
+
 std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
   if (deck.solver.quasi_static) return "";
   const std::vector<double> times = wave_times(body);
@@ -212,15 +231,13 @@ struct Missed {
   double value = 0, time = 0, before = 0, after = 0, beyond = 0;
 };
 
-// `values`: at times that are `apart` (s), `between` of them a load step. Takes the value that is farthest outside.
-void take_missed(const std::vector<double>& values, std::size_t between, double start, double apart, Missed& worst) {
-  for (std::size_t k = 0; k + between < values.size(); k += between) {
-    const double before = values[k], after = values[k + between];
-    if (!std::isfinite(before) || !std::isfinite(after)) continue;  // an error there
-    for (std::size_t n = k + 1; n < k + between; ++n) {
-      const double beyond = std::max(values[n] - std::max(before, after), std::min(before, after) - values[n]);
-      if (beyond > worst.beyond) worst = {values[n], start + static_cast<double>(n) * apart, before, after, beyond};
-    }
+// `values`: at these times of one load step. Takes the value that is farthest outside of those at both ends.
+void take_missed(const std::vector<double>& values, const std::vector<double>& times, Missed& worst) {
+  const double before = values.front(), after = values.back();
+  if (!std::isfinite(before) || !std::isfinite(after)) return;  // an error there
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const double beyond = std::max(values[n] - std::max(before, after), std::min(before, after) - values[n]);
+    if (beyond > worst.beyond) worst = {values[n], times[n], before, after, beyond};
   }
 }
 
@@ -228,12 +245,12 @@ void take_missed(const std::vector<double>& values, std::size_t between, double 
 
 std::string values_between_load_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
   if (!deck.solver.quasi_static) return "";
-  constexpr std::size_t samples_between = 16;
+  constexpr int most_between = 16, most_samples = 100000;  // of a load step and of a run
   constexpr double reported = 0.06;  // of the largest at load steps: ten a period of a sine miss 5.1 % of that at most
   constexpr double round_off = 1e-12;
-  const std::size_t count = samples_between * static_cast<std::size_t>(deck.solver.quasi_static->load_steps);
-  const double start = deck.solver.initial_time;
-  const double apart = (deck.solver.final_time - start) / static_cast<double>(count);
+  const int load_steps = deck.solver.quasi_static->load_steps;
+  const int between = std::clamp(most_samples / load_steps, 2, most_between);
+  const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
   std::ostringstream text;
   for (std::size_t c = 0; c < points.size(); ++c) {
     std::vector<Function> values = straining_values(deck.conditions[c]);
@@ -248,16 +265,20 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
       Missed missed;
       over_the_box(value, where(points[c], body), [&](const OfTime& of_time) {
         if (strains) zero = of_time(start);
-        std::vector<double> all;
         double position = 0;  // of a velocity, up to t
-        for (std::size_t k = 0; k <= count; ++k) {
-          const double t = start + static_cast<double>(k) * apart;
-          all.push_back(is_velocity ? position : of_time(t) - zero);
-          if (k % samples_between == 0) largest = std::max(largest, std::abs(all.back()));
-          if (std::isfinite(all.back())) seen = std::max(seen, std::abs(all.back()));
-          if (is_velocity) position += apart * of_time(t + 0.5 * apart);
+        for (int k = 0; k < load_steps; ++k) {
+          const std::vector<double> times = telling_times(value, of_time.X, start + duration * k / load_steps,
+                                                          start + duration * (k + 1) / load_steps, between);
+          std::vector<double> all;
+          for (std::size_t n = 0; n < times.size(); ++n) {
+            if (is_velocity && n > 0)
+              position += (times[n] - times[n - 1]) * of_time(std::midpoint(times[n - 1], times[n]));
+            all.push_back(is_velocity ? position : of_time(times[n]) - zero);
+            if (std::isfinite(all.back())) seen = std::max(seen, std::abs(all.back()));
+          }
+          largest = std::max({largest, std::abs(all.front()), std::abs(all.back())});
+          take_missed(all, times, missed);
         }
-        take_missed(all, samples_between, start, apart, missed);
       });
       if (!(missed.beyond > reported * largest + round_off * (std::abs(zero) + seen))) continue;
       text << "WARNING: " << value.path()
@@ -265,8 +286,8 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
                : is_velocity ? ": its integral reaches "
                              : ": reaches ")
            << missed.value << " at t = " << missed.time << " s, between two load steps, and " << missed.before
-           << " and " << missed.after << " at these: the equilibria do not see it; is it meant, with "
-           << deck.solver.quasi_static->load_steps << " load steps?\n";
+           << " and " << missed.after << " at these: the equilibria do not see it; is it meant, with " << load_steps
+           << " load steps?\n";
     }
   }
   return text.str();

@@ -18,6 +18,9 @@ enum class MayRest { no, yes };
 std::string check_initial_displacements(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
                                         deck::Problems& problems, MayRest may_rest = MayRest::no);
 
+// Collective. Adds a problem for each prescribed velocity, load or force on a tool that goes to infinity in the run.
+void check_poles(const deck::Deck& deck, const PointsOfConditions& points, const Body& body, deck::Problems& problems);
+
 // Collective. For explicit steps: warns of changes within one step of displacements, the travel of tools, temperatures
 // and the distance of periodic sides, a line each.
 std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);

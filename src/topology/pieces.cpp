@@ -1,7 +1,9 @@
 #include "topology/pieces.hpp"
 
 #include <algorithm>
+#include <span>
 
+#include "base/parallel/gather_scatter.hpp"
 #include "base/union_find.hpp"
 
 namespace strut {
@@ -43,6 +45,22 @@ std::vector<std::int64_t> piece_ids(const Domain& domain, const std::function<bo
 
 std::vector<std::int64_t> piece_ids(const Domain& domain) {
   return piece_ids(domain, [](int, int) { return true; });
+}
+
+std::pair<std::vector<int>, int> numbered_pieces(const Domain& domain) {
+  const std::vector<std::int64_t> ids = piece_ids(domain);
+  std::vector<std::int64_t> first;
+  for (int i = 0; i < domain.owned; ++i) {
+    if (ids[i] == domain.id(i)) first.push_back(ids[i]);
+  }
+  first = gather(domain.communicator, std::span<const std::int64_t>(first));
+  std::ranges::sort(first);
+  domain.communicator.broadcast(first);
+  std::vector<int> numbers;
+  for (const std::int64_t id : ids) {
+    numbers.push_back(static_cast<int>(std::ranges::lower_bound(first, id) - first.begin()));
+  }
+  return {std::move(numbers), static_cast<int>(first.size())};
 }
 
 // Each piece is counted by the rank that owns its first point.

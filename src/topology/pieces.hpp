@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "topology/domain.hpp"
@@ -13,6 +14,9 @@ namespace strut {
 std::vector<std::int64_t> piece_ids(const Domain& domain);
 // The same with only the bonds for which joins(owned point, point) is true; joins must be symmetric.
 std::vector<std::int64_t> piece_ids(const Domain& domain, const std::function<bool(int, int)>& joins);
+
+// Collective. For each owned point, the number of its piece, in the order of their least ids; and the number of pieces.
+std::pair<std::vector<int>, int> numbered_pieces(const Domain& domain);
 
 // Collective. The number of pieces.
 std::int64_t count_pieces(const Domain& domain);

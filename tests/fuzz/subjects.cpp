@@ -7,7 +7,6 @@
 
 #include "base/errors.hpp"
 #include "base/math/function.hpp"
-#include "compare/series.hpp"
 #include "files.hpp"
 #include "io/checkpoint/checkpoint_file.hpp"
 #include "io/exodus/exodus.hpp"
@@ -201,11 +200,6 @@ Subject arrays() {
   return {"arrays", "mesh.arrays", samples, change, read};
 }
 
-Subject histories() {
-  const auto read = [](const fs::path& file) { compare::read_series(file); };
-  return {"history", "run.csv", {"Time,Step_Size,Kinetic_Energy\n0,1e-8,0.5\n1e-8,1e-8,0.25\n"}, change_text, read};
-}
-
 Subject paths() {
   const auto read = [](const fs::path& file) { point::read_path(file, point::all_strain); };
   return {"path",
@@ -260,7 +254,7 @@ std::vector<Subject> all_subjects(const fs::path& folder, const Communicator& wo
   const Subject deck = decks(folder, world);
   all.insert(all.end(), 4, deck);  // the most can be said wrongly there
   for (const Subject& subject :
-       {points(world), recipes(), arrays(), histories(), paths(), expressions(), checkpoint(folder, world)}) {
+       {points(world), recipes(), arrays(), paths(), expressions(), checkpoint(folder, world)}) {
     all.push_back(subject);
   }
   return all;

@@ -47,14 +47,7 @@ def flat_in_substeps(case, name, problem):
     return any("nearly lie in one plane" in line for line in case.base.warnings) and by_substeps(case, name, problem)
 
 
-def starts_by_a_guess(case, name, problem):
-    """prescribed_motion.cpp, slope_of: from the values at the middle and the end of the first step."""
-    few = len(case.base.history.get("Time", ())) <= 8
-    return name == "flying" and problem.startswith("Reactions") and case.scene.has("Prescribed Displacement") and few
-
-
 KNOWN = {
-    "in runs of a few steps the velocity at the start of a prescribed displacement, and so the first reaction, may be taken for that of a jump": starts_by_a_guess,
     "by a law of points far stiffer than the bodies a touch lasts a few steps, whose ends cost or give a part of its energy; told at the start": touched_by_a_stiff_law,
     "the step changes while the highest modes ring, which gives them energy": changed_its_step,
     "contact, or a tool with a mass, comes to points of many substeps while bodies vibrate: the step falls, which gives them energy": pushed_between_substeps,

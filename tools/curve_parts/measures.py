@@ -76,15 +76,18 @@ def quasi_elastic_line(strain, stress, scale):
     return line(strain[rows], stress[rows], GRADIENT[0] * scale, GRADIENT[1] * scale)
 
 
-def offset_stress(strain, stress, gradient, foot, offset):
-    """The stress at which the curve falls below the line of this gradient, offset from the foot; or None."""
-    above = stress - gradient * (strain - foot - offset)
-    rows = 1 + np.flatnonzero((above[1:] <= 0) & (above[:-1] > 0))
+def first_fall(x, y):
+    """The x at which y first falls from above 0 to it, or below; None: never."""
+    rows = np.flatnonzero((y[1:] <= 0) & (y[:-1] > 0))
     if len(rows) == 0:
         return None
     i = rows[0]
-    part = above[i - 1] / (above[i - 1] - above[i])
-    return float(stress[i - 1] + part * (stress[i] - stress[i - 1]))
+    return float(x[i] + y[i] / (y[i] - y[i + 1]) * (x[i + 1] - x[i]))
+
+
+def offset_stress(strain, stress, gradient, foot, offset):
+    """The stress at which the curve falls below the line of this gradient, offset from the foot; or None."""
+    return first_fall(stress, stress - gradient * (strain - foot - offset))
 
 
 def elastic_gradient(strain, stress, scale):

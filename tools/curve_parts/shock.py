@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
+from .measures import first_fall
+
 LEAST_LAYERS = 4
 LEAST_JUMP = 0.5      # of the usual velocity of the hit end
 MEASURES = ("front_speed", "front_scatter", "velocity_jump", "strain_behind", "strain_by_speed", "shock_stress", "stress_jump")
@@ -55,14 +57,7 @@ class Ahead:
 def arrivals(times, gained):
     """Time at which each layer first has half of the velocity that the hit end, the first layer, has gained; NaN: never."""
     ahead = 0.5 * gained[:, :1] - gained  # positive: not yet passed
-    found = np.full(gained.shape[1], np.nan)
-    for layer in range(gained.shape[1]):
-        passed = np.flatnonzero((ahead[1:, layer] <= 0) & (ahead[:-1, layer] > 0))
-        if len(passed):
-            i = passed[0]
-            part = ahead[i, layer] / (ahead[i, layer] - ahead[i + 1, layer])
-            found[layer] = times[i] + part * (times[i + 1] - times[i])
-    return found
+    return np.array([first_fall(times, layer) for layer in ahead.T], float)
 
 
 def alone_until(times, gained, when):

@@ -333,18 +333,9 @@ def result_of(deck, words):
     return Result(path) if os.path.isfile(path) else None
 
 
-def blocks_of(result, block):
-    """The block of this name, or all."""
-    blocks = [b for b in result.blocks if block is None or b.name == block]
-    if not blocks:
-        names = [b.name for b in result.blocks]
-        fail(f"{result.path} has no block '{block}'{nearest(block, names)}; there {'are' if len(names) > 1 else 'is'} {', '.join(names)}")
-    return blocks
-
-
 def points_of(result, block):
     """Nodes and volumes of a block, or of all."""
-    blocks = blocks_of(result, block)
+    blocks = result.blocks_of(block and [block])
     if any(b.volumes is None for b in blocks):
         fail(f"{result.path} does not say how large its points are: name --area (m2) and --height (m)")
     return np.concatenate([b.nodes for b in blocks]), np.concatenate([b.volumes for b in blocks])
@@ -383,7 +374,7 @@ def density_of(deck, block, volume, words, found):
 
 def density_of_points(deck, result, block, volume, found):
     """The mass of all blocks of the sample, each of its own material, over the volume."""
-    volumes = {b.name: b.volumes.sum() for b in blocks_of(result, block) if len(b.nodes)}
+    volumes = {b.name: b.volumes.sum() for b in result.blocks_of(block and [block]) if len(b.nodes)}
     materials = {name: material_density(deck, name) for name in volumes}
     unknown = next((name for name, value in materials.items() if not value), None)
     found["density"] = f"from the points of {result.path}" if unknown is None else f"nowhere: {deck.path} has none for block '{unknown}'"

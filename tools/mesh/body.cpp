@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iomanip>
 #include <numbers>
-#include <numeric>
 
 #include "base/errors.hpp"
 #include "base/text.hpp"
@@ -62,33 +61,17 @@ Section section_of(const Body& body, double layer) {
 
 // A section extruded between faces at these heights; `taper`: its width at the last over that at the first.
 io::Mesh extruded(const Section& section, const std::vector<double>& levels, double taper) {
-  io::Mesh mesh;
-  const int stride = static_cast<int>(section.nodes.size()), layers = static_cast<int>(levels.size()) - 1;
-  for (const double level : levels) {
-    const double w = 1 + (taper - 1) * (level / levels.back());
-    for (const Point& p : section.nodes) mesh.nodes.emplace_back(w * p.x(), w * p.y(), level);
+  const VoxelGrid grid{Vector::Zero(), {section.n, section.m, static_cast<int>(levels.size()) - 1}};
+  std::vector<int> cells;
+  for (int n = 0; n < static_cast<int>(grid.count()); ++n) {
+    const Eigen::Array3i at = grid.cell(n);
+    if (section.keeps(at[0], at[1])) cells.push_back(n);
   }
-  io::Mesh::Block& block = mesh.blocks.emplace_back();
-  block.type = "HEX8";
-  for (int k = 0; k < layers; ++k) {
-    for (const auto& cell : section.cells) {
-      for (const int level : {k, k + 1}) {
-        for (const int node : cell) block.nodes.push_back(node + level * stride);
-      }
-    }
-  }
-  const auto at_levels = [&](const std::vector<int>& nodes, int first, int last) {
-    std::vector<int> numbers;
-    for (int k = first; k <= last; ++k) {
-      for (const int node : nodes) numbers.push_back(node + k * stride);
-    }
-    return numbers;
-  };
-  std::vector<int> all(stride);
-  std::iota(all.begin(), all.end(), 0);
-  mesh.node_sets = {{"zmin", at_levels(all, 0, 0)}, {"zmax", at_levels(all, layers, layers)}};
-  for (const auto& [name, nodes] : section.sides) mesh.node_sets.push_back({name, at_levels(nodes, 0, layers)});
-  return mesh;
+  return voxel_mesh(cells, grid, [&](const Eigen::Array3i& at) -> Vector {
+    const double level = levels[at[2]], w = 1 + (taper - 1) * (level / levels.back());
+    const Point p = w * section.place(at[0], at[1]);
+    return {p.x(), p.y(), level};
+  });
 }
 
 std::string thickness_of(const std::vector<double>& levels) {
@@ -105,16 +88,19 @@ const char* shape_name(const Body& body) {
 
 std::string summary_of(const Body& body, const Section& section, const std::vector<double>& levels) {
   const std::size_t layers = levels.size() - 1;
+  std::size_t cells = 0;
   double area = 0;
   double smallest = INFINITY;
-  for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
-    area += section.area(cell);
-    smallest = std::min(smallest, section.area(cell));
+  for (int n = 0; n < section.n * section.m; ++n) {
+    const int i = n % section.n, j = n / section.n;
+    if (!section.keeps(i, j)) continue;
+    ++cells;
+    area += section.area(i, j);
+    smallest = std::min(smallest, section.area(i, j));
   }
   const double taper = taper_of(body);
   area *= mean_square(1, taper);
   smallest *= std::min(1.0, taper * taper);
-  const std::size_t cells = section.cells.size();
   const double mean = area / static_cast<double>(cells), volume = area * height(body), exact = exact_volume(body);
   const char* const method = body.method == Body::Method::fitted       ? "fitted"
                              : body.shape == Body::Shape::box          ? "lattice"
@@ -154,7 +140,9 @@ io::Mesh extruded(const Body& body, std::string& summary) {
   const double across = body.grading > 1 ? body.spacing : height(body) / static_cast<double>(levels.size() - 1);
   const Section section = section_of(body, across);
   summary = summary_of(body, section, levels) + note_on_stretch(body);
-  return extruded(section, levels, taper_of(body));
+  io::Mesh mesh = extruded(section, levels, taper_of(body));
+  if (body.shape != Body::Shape::box) mesh.node_sets.resize(2);  // zmin and zmax
+  return mesh;
 }
 
 // The voxels whose center is in the body: all for a box, or those of a cylinder around the center of the grid.
@@ -173,9 +161,7 @@ VoxelGrid grid_around(const Body& body) {
   if (body.shape == Body::Shape::box) return grid_of(body.size, body.spacing, body.cells);
   const int layers = std::max(1, static_cast<int>(std::lround(body.length / body.spacing)));
   const double h = body.length / layers;
-  const bool corner = body.centered == Body::Centered::corner;
-  const int across = corner ? 2 * static_cast<int>(std::ceil(body.radius / h))
-                            : 2 * static_cast<int>(std::ceil(body.radius / h - 0.5)) + 1;
+  const int across = cells_across(body.radius, h, body.centered);
   return {{across * h, across * h, body.length}, body.cells * Eigen::Array3i(across, across, layers)};
 }
 

@@ -3,10 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <utility>
 
-#include "mesh/merging.hpp"
 #include "mesh/pieces.hpp"
 
 namespace strut::mesh {
@@ -17,6 +17,105 @@ VoxelGrid coarse_grid(const VoxelGrid& fine, int factor) {
   const Eigen::Array3i cells = (fine.cells + factor - 1) / factor;
   return {fine.spacing().array() * factor * cells.cast<double>(), cells};
 }
+
+// The length of a bar with these moments, in spacings.
+double length_of(const io::PartialCell& part, const Vector& spacing) {
+  const auto scale = spacing.cwiseInverse().asDiagonal();
+  const Tensor moments = scale * to_tensor(part.moments) * scale;
+  return std::sqrt(12 * Eigen::SelfAdjointEigenSolver<Tensor>(moments, Eigen::EigenvaluesOnly).eigenvalues()[2]);
+}
+
+// Merges pieces of a body into their neighbors, one by one. Nodes can join only cells at touching positions. So a merge
+// is not made if the merged cell would have a contact farther away, which would separate material.
+class Merging {
+ public:
+  // `links`: for each piece, those that it can be merged into.
+  Merging(Pieces& pieces, std::vector<std::set<int>> links, const VoxelGrid& grid)
+      : pieces_(pieces),
+        list_(pieces.list),
+        links_(std::move(links)),
+        grid_(grid),
+        alive_(list_.size(), true),
+        into_(list_.size(), -1) {}
+
+  using Allowed = std::function<bool(int)>;
+  // Merges a piece into the one of its links that is `allowed`, gives the most compact result, and is no longer than
+  // `longest` cells. The result is at the position of that link or, if only that keeps its neighbors, of the piece.
+  // Returns the piece that contains both, or -1.
+  int merge(
+      int piece, double longest = INFINITY, const Allowed& allowed = [](int) { return true; }) {
+    Choice choice = most_compact(piece, longest, allowed, false);
+    if (choice.into < 0) choice = most_compact(piece, longest, allowed, true);
+    if (choice.into >= 0) join(piece, choice);
+    return choice.into;
+  }
+  void drop(int piece) { alive_[piece] = false; }
+
+  bool alive(int piece) const { return alive_[piece]; }
+  const std::set<int>& links(int piece) const { return links_[piece]; }
+
+  // Assigns the voxels of merged pieces to the pieces that contain them.
+  void finish() {
+    for (int& piece : pieces_.of) {
+      while (piece >= 0 && into_[piece] >= 0) piece = into_[piece];
+      if (piece >= 0 && !alive_[piece]) piece = -1;
+    }
+  }
+
+ private:
+  struct Choice {
+    int into = -1;  // a piece; -1: none is possible
+    int place = 0;  // of the merged piece
+  };
+
+  // True if a piece at `place` would touch all pieces that `piece` has contacts with, except `other`.
+  bool reaches(int place, int piece, int other) const {
+    const Eigen::Array3i at = grid_.cell(place);
+    return std::all_of(links_[piece].begin(), links_[piece].end(), [&](int linked) {
+      return linked == other || ((grid_.cell(list_[linked].place) - at).abs() <= 1).all();
+    });
+  }
+
+  Choice most_compact(int piece, double longest, const Allowed& allowed, bool is_at_piece) const {
+    Choice best;
+    double least = 0;
+    for (const int other : links_[piece]) {
+      const int place = list_[is_at_piece ? piece : other].place;
+      if (!allowed(other) || !reaches(place, piece, other) || !reaches(place, other, piece)) continue;
+      io::PartialCell both = list_[other].part;
+      absorb(both, list_[piece].part);
+      const double extent = both.moments.head<3>().sum();
+      if (best.into >= 0 && extent >= least) continue;
+      if (std::isfinite(longest) && length_of(both, grid_.spacing()) > longest) continue;
+      best = {other, place};
+      least = extent;
+    }
+    return best;
+  }
+
+  void join(int piece, const Choice& choice) {
+    const int into = choice.into;
+    absorb(list_[into].part, list_[piece].part);
+    list_[into].filled += list_[piece].filled;
+    list_[into].place = choice.place;
+    for (const int other : links_[piece]) {
+      links_[other].erase(piece);
+      if (other == into) continue;
+      links_[other].insert(into);
+      links_[into].insert(other);
+    }
+    links_[piece].clear();
+    alive_[piece] = false;
+    into_[piece] = into;
+  }
+
+  Pieces& pieces_;
+  std::vector<Piece>& list_;
+  std::vector<std::set<int>> links_;
+  const VoxelGrid& grid_;
+  std::vector<char> alive_;
+  std::vector<int> into_;  // the piece that a merged piece became part of
+};
 
 // Merges small pieces into their neighbors. A piece that cannot be merged waits until its neighbors have changed.
 class SmallPieces {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "base/errors.hpp"
@@ -10,26 +9,6 @@
 namespace strut::mesh {
 
 namespace {
-
-// n × m cells; those with `keep(i, j)` stay, with nodes (i, j) at `position(i, j)`. Only their nodes are numbered.
-Section grid(int n, int m, const std::function<bool(int, int)>& keep, const std::function<Point(int, int)>& position) {
-  Section section;
-  std::vector<int> numbers(static_cast<std::size_t>(n + 1) * (m + 1), -1);
-  const auto node = [&](int i, int j) {
-    int& number = numbers[static_cast<std::size_t>(j) * (n + 1) + i];
-    if (number < 0) {
-      number = static_cast<int>(section.nodes.size());
-      section.nodes.push_back(position(i, j));
-    }
-    return number;
-  };
-  for (int j = 0; j < m; ++j) {
-    for (int i = 0; i < n; ++i) {
-      if (keep(i, j)) section.cells.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
-    }
-  }
-  return section;
-}
 
 bool all(int, int) { return true; }
 
@@ -47,14 +26,6 @@ Point disc_of_square(double u, double v) {
 }
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-std::vector<int> nodes_where(const Section& section, const std::function<bool(const Point&)>& here) {
-  std::vector<int> nodes;
-  for (std::size_t n = 0; n < section.nodes.size(); ++n) {
-    if (here(section.nodes[n])) nodes.push_back(static_cast<int>(n));
-  }
-  return nodes;
-}
 
 std::vector<double> uniform_levels(double spacing, double height) {
   const int layers = std::max(1, static_cast<int>(std::lround(height / spacing)));
@@ -87,48 +58,42 @@ std::vector<double> graded_levels(const Body& body, double height) {
 
 }  // namespace
 
-double Section::area(std::size_t cell) const {
-  const auto& [a, b, c, d] = cells[cell];
-  return cross(nodes[c] - nodes[a], nodes[d] - nodes[b]) / 2;  // of its diagonals
+double Section::area(int i, int j) const {
+  return cross(place(i + 1, j + 1) - place(i, j), place(i, j + 1) - place(i + 1, j)) / 2;  // of its diagonals
+}
+
+int cells_across(double radius, double spacing, Body::Centered centered) {
+  if (centered == Body::Centered::corner) return 2 * static_cast<int>(std::ceil(radius / spacing));
+  return 2 * static_cast<int>(std::ceil(radius / spacing - 0.5)) + 1;
 }
 
 Section lattice_disc(double radius, double spacing, Body::Centered centered) {
-  const bool corner = centered == Body::Centered::corner;
-  const int half = static_cast<int>(std::ceil(radius / spacing)) + 1;
-  const int n = corner ? 2 * half : 2 * half + 1;
+  const int n = cells_across(radius, spacing, centered);
   // In units of half a spacing these are exact integers, so the section is symmetric to the last bit.
   const double square = std::pow(2 * radius / spacing, 2) * (1 + 1e-12);
-  const auto keep = [&](int i, int j) {
+  const auto keeps = [=](int i, int j) {
     const double x = 2 * i + 1 - n;
     const double y = 2 * j + 1 - n;
     return x * x + y * y <= square;
   };
-  const auto position = [&](int i, int j) { return Point((2 * i - n) * spacing / 2, (2 * j - n) * spacing / 2); };
-  Section section = grid(n, n, keep, position);
-  if (section.cells.empty()) throw Error("no cell's center lies within the radius: the spacing is too large");
-  return section;
+  if (!keeps(n / 2, n / 2)) throw Error("no cell's center lies within the radius: the spacing is too large");
+  return {n, n, keeps, [=](int i, int j) { return Point((2 * i - n) * spacing / 2, (2 * j - n) * spacing / 2); }};
 }
 
 Section fitted_disc(double radius, double spacing) {
   // n² cells for the area π radius² at the spacing; an odd n would give a much smaller cell in the middle.
   const double wanted = radius * std::sqrt(std::numbers::pi) / spacing;
   const int n = std::max(2, 2 * static_cast<int>(std::lround(wanted / 2)));
-  return grid(n, n, all, [&](int i, int j) -> Point {
-    return radius * disc_of_square((2 * i - n) / static_cast<double>(n), (2 * j - n) / static_cast<double>(n));
-  });
+  return {n, n, all, [=](int i, int j) -> Point {
+            return radius * disc_of_square((2 * i - n) / static_cast<double>(n), (2 * j - n) / static_cast<double>(n));
+          }};
 }
 
 Section rectangle(double a, double b, double spacing) {
   const int n = std::max(1, static_cast<int>(std::lround(a / spacing)));
   const int m = std::max(1, static_cast<int>(std::lround(b / spacing)));
   // a * n / n may differ from a by round-off.
-  Section section =
-      grid(n, m, all, [&](int i, int j) { return Point(i == n ? a : a * i / n, j == m ? b : b * j / m); });
-  section.sides = {{"xmin", nodes_where(section, [](const Point& p) { return p.x() == 0; })},
-                   {"xmax", nodes_where(section, [&](const Point& p) { return p.x() == a; })},
-                   {"ymin", nodes_where(section, [](const Point& p) { return p.y() == 0; })},
-                   {"ymax", nodes_where(section, [&](const Point& p) { return p.y() == b; })}};
-  return section;
+  return {n, m, all, [=](int i, int j) { return Point(i == n ? a : a * i / n, j == m ? b : b * j / m); }};
 }
 
 std::vector<double> levels_of(const Body& body, double height) {

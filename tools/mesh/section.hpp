@@ -2,9 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <array>
-#include <string>
-#include <utility>
+#include <functional>
 #include <vector>
 
 #include "mesh/recipe.hpp"
@@ -13,13 +11,17 @@ namespace strut::mesh {
 
 using Point = Eigen::Vector2d;
 
+// n × m cells, of which some are kept, and the places of their corners, m.
 struct Section {
-  std::vector<Point> nodes;
-  std::vector<std::array<int, 4>> cells;                        // nodes, counter-clockwise
-  std::vector<std::pair<std::string, std::vector<int>>> sides;  // named lines of nodes
+  int n, m;
+  std::function<bool(int, int)> keeps;
+  std::function<Point(int, int)> place;
 
-  double area(std::size_t cell) const;
+  double area(int i, int j) const;  // of a cell
 };
+
+// The number of cells across that hold all centers within the radius of the axis, which is at a center or at a corner.
+int cells_across(double radius, double spacing, Body::Centered centered);
 
 // Squares of the spacing with their centers within the radius; the axis is at a center, or at a corner of four.
 Section lattice_disc(double radius, double spacing, Body::Centered centered);
@@ -27,7 +29,7 @@ Section lattice_disc(double radius, double spacing, Body::Centered centered);
 // An even number of cells across, all with nearly the same area; the outer nodes are on the circle.
 Section fitted_disc(double radius, double spacing);
 
-// The lower corner is at the origin; sides xmin, xmax, ymin, ymax.
+// The lower corner is at the origin.
 Section rectangle(double a, double b, double spacing);
 
 // Heights of the layers' faces over a body of this height (m), from 0 to it: equal layers, as thick as the spacing up

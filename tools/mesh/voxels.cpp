@@ -22,40 +22,6 @@ constexpr std::array<Face, 6> faces = {{{"zmin", 2, false},
                                         {"ymin", 1, false},
                                         {"ymax", 1, true}}};
 
-// Numbers the corners of voxels as they occur. Voxels are processed layer by layer, so that only the numbers of the
-// corners below and above a layer are stored.
-class Corners {
- public:
-  Corners(io::Mesh& mesh, const VoxelGrid& grid) : mesh_(mesh), grid_(grid) {
-    for (std::vector<int>& plane : planes_) plane.assign(static_cast<std::size_t>(width()) * (grid.cells[1] + 1), -1);
-  }
-
-  int number(const Triple& at) {
-    int& number = planes_[at[2] - layer_][static_cast<std::size_t>(at[1]) * width() + at[0]];
-    if (number < 0) {
-      number = static_cast<int>(mesh_.nodes.size());
-      mesh_.nodes.emplace_back(grid_.size.array() * at.cast<double>() / grid_.cells.cast<double>());
-      add_to_sets(mesh_, number, at, grid_.cells);
-    }
-    return number;
-  }
-
-  void go_to(int layer) {
-    for (; layer_ < layer; ++layer_) {
-      planes_[0].swap(planes_[1]);
-      std::fill(planes_[1].begin(), planes_[1].end(), -1);
-    }
-  }
-
- private:
-  int width() const { return grid_.cells[0] + 1; }
-
-  io::Mesh& mesh_;
-  const VoxelGrid& grid_;
-  int layer_ = 0;
-  std::array<std::vector<int>, 2> planes_;
-};
-
 }  // namespace
 
 VoxelGrid grid_of(const Vector& size, double spacing, int factor) {
@@ -80,15 +46,30 @@ void add_to_sets(io::Mesh& mesh, int number, const Triple& at, const Triple& las
   }
 }
 
-io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid) {
+io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid,
+                    const std::function<Vector(const Triple&)>& place) {
   io::Mesh mesh = empty_mesh();
-  Corners numbers(mesh, grid);
+  const VoxelGrid corners{grid.size, grid.cells + 1};
+  std::vector<int> numbers(corners.count(), -1);  // as the corners occur
   for (const int voxel : voxels) {
-    const Triple cell = grid.cell(voxel);
-    numbers.go_to(cell[2]);
-    for (const Triple& corner : hexahedron_corners) mesh.blocks[0].nodes.push_back(numbers.number(cell + corner));
+    for (const Triple& corner : hexahedron_corners) {
+      const Triple at = grid.cell(voxel) + corner;
+      int& number = numbers[corners.index(at[0], at[1], at[2])];
+      if (number < 0) {
+        number = static_cast<int>(mesh.nodes.size());
+        mesh.nodes.push_back(place(at));
+        add_to_sets(mesh, number, at, grid.cells);
+      }
+      mesh.blocks[0].nodes.push_back(number);
+    }
   }
   return mesh;
+}
+
+io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid) {
+  return voxel_mesh(voxels, grid, [&](const Triple& at) -> Vector {
+    return grid.size.array() * at.cast<double>() / grid.cells.cast<double>();
+  });
 }
 
 }  // namespace strut::mesh

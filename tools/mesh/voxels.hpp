@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -57,7 +58,10 @@ void add_to_sets(io::Mesh& mesh, int number, const Eigen::Array3i& at, const Eig
 inline const std::array<Eigen::Array3i, 8> hexahedron_corners = {
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
-// Hexahedra; node sets zmin, zmax, xmin, xmax, ymin, ymax on the faces of the box, all without names.
+// Hexahedra; node sets zmin, zmax, xmin, xmax, ymin, ymax on the faces of the box, all without names. `place`: of a
+// corner (0 to grid.cells along each axis), m.
+io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid,
+                    const std::function<Vector(const Eigen::Array3i&)>& place);
 io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid);
 
 }  // namespace strut::mesh

@@ -68,6 +68,14 @@ class Result:
         known = attributes is not None and attributes.shape[1] > 1
         return Block(name, number, nodes[:, 0] - 1, np.array(attributes[:, 1]) if known else None)
 
+    def blocks_of(self, names):
+        """The blocks of these names; without names all."""
+        known = [block.name for block in self.blocks]
+        for name in names or ():
+            if name not in known:
+                fail(f"{self.path} has no block '{name}'{nearest(name, known)}; it has {', '.join(known)}")
+        return [block for block in self.blocks if not names or block.name in names]
+
     def has(self, name):
         return name in self.names or name in self.nodal
 

@@ -47,15 +47,6 @@ def frames_of(result, wanted):
     return [int(f) for f in np.rint(np.linspace(0, len(result.times) - 1, count))] if count > 1 else [len(result.times) - 1]
 
 
-def blocks_of(result, names):
-    """Those named, or all that have points."""
-    known = {block.name: block for block in result.blocks}
-    for name in names or ():
-        if name not in known:
-            fail(f"{result.path} has no block '{name}'; it has {', '.join(known)}")
-    return [block for block in result.blocks if len(block.nodes) and (not names or block.name in names)]
-
-
 def kept(result, block, clip, towards):
     """Nodes of the block, less those on the eye's side of the plane at a fraction of the box."""
     if not clip:
@@ -142,7 +133,8 @@ class Scene:
         self.times = result.times[self.frames]
         if len(result.reference) > MOST_POINTS:
             fail(f"{result.path} has {len(result.reference)} points, of which {MOST_POINTS} can be drawn")
-        blocks, named = blocks_of(result, wanted.blocks), [b.name for b in blocks_of(result, wanted.glass)]
+        blocks = [b for b in result.blocks_of(wanted.blocks) if len(b.nodes)]
+        named = [b.name for b in result.blocks_of(wanted.glass)]
         variables = wanted.variables or [name for name in USUAL if result.has(name)] or ["Displacement"]
         self.rows = [Row(result, name, self.frames) for name in variables]
         idle = {name: row.name for row in self.rows for name in row.idle(blocks)} if wanted.glass is None else {}

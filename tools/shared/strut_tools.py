@@ -19,7 +19,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 def fail(text):
     """Ends the tool with one line that names it, and status 1."""
-    sys.exit(f"tools/{os.path.basename(sys.argv[0])}: {text}")
+    name = os.path.basename(sys.argv[0])
+    sys.exit(f"{'' if name.startswith('strut') else 'tools/'}{name}: {text}")
 
 
 def run(main):
@@ -292,8 +293,8 @@ def run_deck(deck, folder, ranks=None, limit=None):
         return output.read()
 
 
-def history(path, growing=False):
-    """The columns of a history by name; lines that begin with # give the writer and the units. Ends the tool if it is damaged, or
+def columns(path, growing=False):
+    """The columns of a table (CSV) by name; lines that begin with # give the writer and the units. Ends the tool if it is damaged, or
     cut off, because a truncated number has another value; `growing`: a run may be writing its last line, which is left out."""
     import numpy as np
 
@@ -304,19 +305,30 @@ def history(path, growing=False):
             *lines, last = file.read().split("\n")
         if last and not growing:
             fail(f"{path} is cut off in line {len(lines) + 1}, '{last[-30:]}' (or a run is about to write it: try again)")
-        numbers = [number for number, line in enumerate(lines, 1) if not line.startswith("#")]
-        header, *rows = csv.reader(lines[number - 1] for number in numbers) if numbers else [[]]
-        for number, row in zip(numbers[1:], rows):
-            if len(row) != len(header):
-                fail(f"{path} is damaged: line {number} has {len(row)} values, expected {len(header)} as in its head")
-        table = np.array(rows, float)
-    except (UnicodeDecodeError, ValueError, csv.Error) as error:
-        fail(f"{path} is not a history: {error}")
-    if "Time" not in header or not rows:
-        fail(f"{path} is not a history: it has no column Time, or no rows")
+        places = [place for place, line in enumerate(lines, 1) if not line.startswith("#")]
+        if not places:
+            fail(f"{path} is empty")
+        header, *rows = csv.reader((lines[place - 1] for place in places), skipinitialspace=True)
+    except (UnicodeDecodeError, csv.Error) as error:
+        fail(f"{path} is not a table: {error}")
+    table = []
+    for place, row in zip(places[1:], rows):
+        if len(row) != len(header):
+            fail(f"{path} is damaged: line {place} has {len(row)} values, expected {len(header)} as in its head")
+        table.append([number(word) for word in row])
+        if None in table[-1]:
+            fail(f"{path} is damaged: line {place} has '{row[table[-1].index(None)]}', expected a number")
     if twice := [name for name in header if header.count(name) > 1]:
         fail(f"{path} has two columns '{twice[0]}', expected each once")
-    return dict(zip(header, table.T))
+    return dict(zip(header, np.array(table, float).reshape(-1, len(header)).T))
+
+
+def history(path, growing=False):
+    """The columns() of a history."""
+    table = columns(path, growing)
+    if not len(table.get("Time", ())):
+        fail(f"{path} is not a history: it has no column Time, or no rows")
+    return table
 
 
 def history_of(path):

@@ -2,6 +2,7 @@
 import numpy as np
 from curve_parts import extent
 from exodus import opened
+from scipy.spatial import cKDTree
 from strut_tools import fail
 
 FACES = [f"{axis}{side}" for axis in "xyz" for side in ("min", "max")]
@@ -12,10 +13,10 @@ class Sample:
     filled cells count as prisms, and the box ends where the material does: whole cells may extend beyond it."""
 
     def __init__(self, mesh):
-        parts, box = extent.of_blocks(mesh, None, extent.cells_of), extent.box_in(mesh, None)
+        parts, box = extent.elements_of(mesh), extent.box_in(mesh, None)
         if not parts:
             fail(f"{mesh}: expected hexahedra or tetrahedra, which tell the faces of a box; it has none, also others, or is damaged")
-        self.edges, self.places, self.halves = (np.concatenate(found) for found in zip(*parts))
+        self.edges, self.places, self.halves = (np.concatenate(found) for found in zip(*((p.high - p.low, p.middle, p.half) for p in parts)))
         self.low, self.high = box
         try:
             with opened(mesh) as file:
@@ -48,19 +49,12 @@ class Sample:
 
     def behind(self, members, axis, depth):
         """Those of the members that have another one in front of more than their center."""
-        across = [a for a in range(3) if a != axis]
         if not len(members):
-            return np.array([], int)
-        bins = np.floor(self.places[members][:, across] / self.edges[members][:, across].max(axis=0)).astype(int)
-        there = {}
-        for place, member in zip(map(tuple, bins), members):
-            there.setdefault(place, []).append(member)
-        found = []
-        for (i, j), member in zip(bins, members):
-            others = np.array([other for a in (-1, 0, 1) for b in (-1, 0, 1) for other in there.get((i + a, j + b), ())])
-            apart = np.abs(self.places[others][:, across] - self.places[member, across])
-            beside = (apart > 0.5 * (self.halves[others] + self.halves[member])[:, across]).any(axis=1)
-            reach = (self.halves[others] + self.halves[member])[:, axis]
-            if (~beside & (depth[member] - depth[others] >= 0.75 * reach)).any():
-                found.append(member)
-        return np.array(found, int)
+            return members
+        places, halves = np.delete(self.places[members], axis, 1), np.delete(self.halves[members], axis, 1)
+        pairs = cKDTree(places).query_pairs(halves.max(), p=np.inf, output_type="ndarray")
+        i, j = np.concatenate([pairs, pairs[:, ::-1]]).T
+        beside = (np.abs(places[i] - places[j]) > 0.5 * (halves[i] + halves[j])).any(axis=1)
+        i, j = members[i], members[j]
+        in_front = depth[i] - depth[j] >= 0.75 * (self.halves[i] + self.halves[j])[:, axis]
+        return np.unique(i[in_front & ~beside])

@@ -66,7 +66,7 @@ class Case:
         for name, text in self.texts.items():
             with open(os.path.join(self.folder, name), "w") as file:
                 file.write(text)
-        for name in [*self.links, *([self.mesh] if self.mesh else []), *inputs.written_by(self.source)]:
+        for name in [*self.links, *([self.mesh] if self.mesh else []), *(name for _, _, name in inputs.writers_in(self.source))]:
             os.makedirs(os.path.join(self.folder, os.path.dirname(name)), exist_ok=True)
         for name, file in self.links.items():
             os.symlink(file, os.path.join(self.folder, name))

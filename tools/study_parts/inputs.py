@@ -45,21 +45,19 @@ def link(path, here, links):
     return name
 
 
-def written_by(deck):
-    """The files that a run writes into its folder."""
-    found = [value_in(element, key) for section, key in WRITTEN for element in deck.root.findall("ParameterList")
-             if (element.get("name") or "").startswith(section)]
-    return [name for name in found if name]
+def writers_in(deck):
+    """Section, key and name of each file that a run writes into its folder."""
+    found = [(element.get("name") or "", key, value_in(element, key)) for element in deck.root.findall("ParameterList")
+             for start, key in WRITTEN if (element.get("name") or "").startswith(start)]
+    return [(section, key, name) for section, key, name in found if name]
 
 
 def check_written(deck, taken):
     """Checks that runs write into their own folders, and not over files that they read."""
-    for section, key in WRITTEN:
-        for element in (e for e in deck.root.findall("ParameterList") if (e.get("name") or "").startswith(section)):
-            name = value_in(element, key)
-            where = f"{deck.path}: {element.get('name')} > {key}"
-            if name and leads_out(name):
-                fail(f"{where} '{name}' leads out of the folder of a run, where all runs would write it: expected a name within")
-            suffix = ".e" if section == "Output" and name and not os.path.splitext(name)[1] else ""
-            if name and os.path.normpath(name + suffix) in taken:
-                fail(f"{where} '{name}' is also the name of a file that a run needs: expected another one")
+    for section, key, name in writers_in(deck):
+        where = f"{deck.path}: {section} > {key}"
+        if leads_out(name):
+            fail(f"{where} '{name}' leads out of the folder of a run, where all runs would write it: expected a name within")
+        suffix = ".e" if section.startswith("Output") and not os.path.splitext(name)[1] else ""
+        if os.path.normpath(name + suffix) in taken:
+            fail(f"{where} '{name}' is also the name of a file that a run needs: expected another one")

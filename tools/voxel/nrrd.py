@@ -1,6 +1,7 @@
 """Reads NRRD (teem.sourceforge.net/nrrd/format.html): an array (z, y, x) and the spacing (x, y, z) of the file. VTK's
 reader interprets compressed numbers and text as this machine's, whatever the header says, and thin images as colors."""
 import bz2
+import gzip
 import math
 import os
 import re
@@ -92,14 +93,14 @@ def unpacked(path, fields, content, sizes):
         if encoding in ("ascii", "text", "txt"):
             return written_out(content, code, fields["type"])
         if encoding in ("gzip", "gz"):
-            content = gunzipped(content)
+            content = gzip.decompress(content)
         elif encoding in ("bzip2", "bz2"):
             content = bz2.decompress(content)
         elif encoding == "hex":
             content = bytes.fromhex(content.decode("latin-1"))
         elif encoding != "raw":
             fail(f"{path}: its encoding '{fields['encoding']}' is not known; expected raw, gzip, bzip2, ascii or hex")
-    except (OSError, ValueError, OverflowError, zlib.error) as error:
+    except (OSError, EOFError, ValueError, OverflowError, zlib.error) as error:
         fail(f"{path} is damaged: {error}")
     kind = np.dtype(order_of(path, fields, code) + code)
     skip = whole(path, fields, "byte skip")
@@ -131,17 +132,6 @@ def written_out(text, code, name):
     if code[0] in "iu" and len(beyond):
         raise OverflowError(f"{beyond[0]} is no number of type {name}")
     return numbers.astype(code)
-
-
-def gunzipped(content):
-    out = b""
-    while content.startswith(b"\x1f\x8b") or not out:  # several streams, one after the other, are one
-        unpacker = zlib.decompressobj(31)
-        out += unpacker.decompress(content)
-        if not unpacker.eof:
-            raise ValueError("its gzip stream is cut off")
-        content = unpacker.unused_data
-    return out
 
 
 def numbers_in(text, kind):

@@ -5,6 +5,8 @@ AIM 020 begins with five int32 (size of this list 20, of the header 140, of the 
 in the header from byte 20 on the type (int32), 21 whole numbers of that size (3 to 5 are the voxels), and 3 floats: the edges
 of a voxel. Voxels follow the log. ISQ: 512 bytes, at 44 voxels and the box in micrometers, at 508 the block before the voxels.
 """
+import struct
+
 import numpy as np
 
 from strut_tools import fail
@@ -38,24 +40,21 @@ def checked(path, shape, edges):
 
 def aim(path, data):
     new = data.startswith(NEW)
-    size, start = (8, len(NEW)) if new else (4, 0)
-    whole = "<i8" if new else "<i4"
-    if len(data) < start + 5 * size or (not new and np.frombuffer(data[:8], "<i4").tolist() != [20, 140]):
+    start, whole = (len(NEW), struct.Struct("<q")) if new else (0, struct.Struct("<i"))
+    if len(data) < start + 5 * whole.size or (not new and struct.unpack_from("<2i", data) != (20, 140)):
         fail(f"{path} is not an AIM image of Scanco (version 020 or 030), or is damaged")
-    lengths = np.frombuffer(data[start:start + 3 * size], whole).tolist()
+    lengths = struct.unpack_from("<3" + whole.format[1], data, start)
     header = start + lengths[0]
-    if min(lengths) < 0 or len(data) < header + 24 + 21 * size + 12:
+    if min(lengths) < 0 or len(data) < header + 36 + 21 * whole.size:
         fail(f"{path} is damaged: it ends in its header")
-    kind = int(np.frombuffer(data[header + 20:header + 24], "<i4")[0])
-    numbers = np.frombuffer(data[header + 24:header + 24 + 21 * size], whole)
-    edges = vax_floats(data[header + 24 + 21 * size:header + 36 + 21 * size]).astype(float)
-    shape = tuple(int(n) for n in numbers[5:2:-1])
-    edges = tuple(float(1e-3 * (e or 1)) for e in edges)
+    kind, *numbers = struct.unpack_from("<i21" + whole.format[1], data, header + 20)
+    shape = tuple(numbers[5:2:-1])
+    edges = tuple(float(1e-3 * (e or 1)) for e in vax_floats(data[header + 24 + 21 * whole.size:][:12]))
     checked(path, shape, edges)
-    return values_of(path, data[start + sum(lengths):], kind, shape, size), edges
+    return values_of(path, data[start + sum(lengths):], kind, shape, whole), edges
 
 
-def values_of(path, data, kind, shape, size):
+def values_of(path, data, kind, shape, whole):
     count = int(np.prod(shape))
     if kind in PLAIN:
         dtype = np.dtype(PLAIN[kind])
@@ -66,10 +65,10 @@ def values_of(path, data, kind, shape, size):
         return bits(path, data, shape)
     if kind not in (RUNS_OF_BITS, RUNS_OF_BYTES):
         fail(f"{path} holds numbers of Scanco's type {kind:#010x}, which is not known")
-    packed = int(np.frombuffer(data[:size].ljust(size, b"\0"), "<i8" if size == 8 else "<i4")[0])
+    packed, = whole.unpack(data[:whole.size].ljust(whole.size, b"\0"))
     if not 0 <= packed <= len(data):
         cut_off(path, len(data), packed)
-    runs = np.frombuffer(data[size:packed], np.uint8)
+    runs = np.frombuffer(data[whole.size:packed], np.uint8)
     # Bytes come as pairs of run length and value.
     found = runs_of_bits(runs) if kind == RUNS_OF_BITS else np.repeat(runs[1::2], runs[0:2 * (len(runs) // 2):2])
     if len(found) < count:
@@ -104,10 +103,11 @@ def runs_of_bits(data):
 def isq(path, data):
     if len(data) < 512:
         fail(f"{path} is damaged: it ends in its header")
-    numbers = np.frombuffer(data[44:68], "<i4").astype(int)
-    shape, start = tuple(int(n) for n in numbers[2::-1]), 512 * (1 + int(np.frombuffer(data[508:512], "<i4")[0]))
-    edges = tuple(float(1e-6 * box / max(n, 1)) for box, n in zip(numbers[3:], numbers[:3]))
+    numbers, (before,) = struct.unpack_from("<6i", data, 44), struct.unpack_from("<i", data, 508)
+    shape, start = numbers[2::-1], 512 * (1 + before)
+    edges = tuple(1e-6 * box / max(n, 1) for box, n in zip(numbers[3:], numbers))
     checked(path, shape, edges)
-    if start < 512 or len(data) < start + 2 * int(np.prod(shape)):
-        cut_off(path, max(0, len(data) - start), 2 * int(np.prod(shape)))
-    return np.frombuffer(data, "<i2", int(np.prod(shape)), start).reshape(shape), edges
+    count = int(np.prod(shape))
+    if start < 512 or len(data) < start + 2 * count:
+        cut_off(path, max(0, len(data) - start), 2 * count)
+    return np.frombuffer(data, "<i2", count, start).reshape(shape), edges

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numeric>
 
 namespace strut {
 
@@ -101,6 +104,19 @@ class Machine {
 
   double value() const { return variables_[static_cast<int>(Given::value)]; }
 
+  // The same, and the sign of the result: of the difference of two arguments, and odd if truncated, so that it changes
+  // where min, max and truncation do.
+  int execute(const Instruction& one, int& sign) {
+    const auto sign_of = [](double a) { return (a > 0 ? 1 : 0) - (a < 0 ? 1 : 0); };
+    const bool compares = one.what == Do::call && math_functions()[one.index].arguments == 2;
+    if (compares) sign = sign_of(stack_[height_ - 2] - stack_[height_ - 1]);
+    const int skipped = execute(one);
+    if (compares || height_ == 0) return skipped;
+    const double result = stack_[height_ - 1];
+    sign = sign_of(one.what == Do::truncate ? std::fmod(result, 2) : result);
+    return skipped;
+  }
+
  private:
   void push(double number) { stack_[height_++] = number; }
   double pop() { return stack_[--height_]; }
@@ -133,6 +149,36 @@ double Expression::operator()(double x, double y, double z, double t) const {
   Machine machine(x, y, z, t, tables_);
   for (std::size_t i = 0; i < program_.size(); ++i) i += machine.execute(program_[i]);
   return machine.value();
+}
+
+std::vector<double> Expression::turns(double x, double y, double z, const std::vector<double>& samples) const {
+  constexpr int not_executed = 2;
+  std::vector<double> found;
+  for (const LookUp& table : tables_) found.insert(found.end(), table.arguments.begin(), table.arguments.end());
+  using Signs = std::vector<int>;
+  const auto signs_at = [&](double t) {
+    Machine machine(x, y, z, t, tables_);
+    Signs signs(program_.size(), not_executed);
+    for (std::size_t i = 0; i < program_.size(); ++i) i += machine.execute(program_[i], signs[i]);
+    return signs;
+  };
+  const double least = std::ldexp(samples.back() - samples.front(), -60);
+  const std::function<void(double, double, const Signs&, const Signs&)> search =
+      [&](double from, double to, const Signs& before, const Signs& after) {
+        if (before == after) return;
+        const double middle = std::midpoint(from, to);
+        if (!(from < middle && middle < to && to - from > least)) return found.push_back(to);
+        const Signs between = signs_at(middle);
+        search(from, middle, before, between);
+        search(middle, to, between, after);
+      };
+  Signs before = signs_at(samples.front());
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    const Signs after = signs_at(samples[k]);
+    search(samples[k - 1], samples[k], before, after);
+    before = after;
+  }
+  return found;
 }
 
 const std::vector<MathFunction>& math_functions() {

@@ -52,6 +52,10 @@ class Expression {
 
   double operator()(double x, double y, double z, double t) const;
 
+  // Times near which the value may turn, jump or peak: those at which an intermediate result changes its sign, such as
+  // t - 0.3 and t < 0.3, as the samples show (s, in order), to the last bit, and all rows of tables.
+  std::vector<double> turns(double x, double y, double z, const std::vector<double>& samples) const;
+
   bool uses_position() const { return uses_position_; }  // x, y or z
   bool uses_time() const { return uses_time_; }
 

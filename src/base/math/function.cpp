@@ -1,5 +1,6 @@
 #include "base/math/function.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cctype>
 #include <charconv>
@@ -87,6 +88,15 @@ std::string Function::first_not_finite() const {
 bool Function::depends_on_time() const { return program_ && program_->uses_time(); }
 
 bool Function::depends_on_position() const { return program_ && program_->uses_position(); }
+
+std::vector<double> Function::turns(const Vector& X, const std::vector<double>& samples) const {
+  if (!depends_on_time()) return {};
+  std::vector<double> times = program_->turns(X[0], X[1], X[2], samples);
+  std::erase_if(times, [&](double t) { return !(t > samples.front() && t < samples.back()); });
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
 
 std::vector<std::string> functions_in_expressions() {
   std::vector<std::string> names;

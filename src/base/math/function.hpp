@@ -38,6 +38,9 @@ class Function {
   bool is_constant() const { return program_ == nullptr; }  // the same at all positions and times
   bool depends_on_time() const;
   bool depends_on_position() const;
+  // Times between the first and the last sample (s, in order) near which the value may turn, jump or peak, in order, as
+  // Expression::turns finds them.
+  std::vector<double> turns(const Vector& X, const std::vector<double>& samples) const;
   const std::string& text() const { return text_; }
 
  private:

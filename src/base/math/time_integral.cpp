@@ -1,40 +1,73 @@
 #include "base/math/time_integral.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <queue>
 
 namespace strut {
 
-std::vector<double> numbers_in(const std::string& text) {
-  std::vector<double> numbers;
-  const char *here = text.data(), *end = here + text.size();
-  while (here != end) {
-    double number = 0;
-    const bool begins = std::isdigit(static_cast<unsigned char>(*here)) != 0 || *here == '.';
-    const auto [rest, failure] = std::from_chars(here, end, number);
-    const bool is_number = begins && failure == std::errc();
-    if (is_number) numbers.push_back(number);
-    here = is_number ? rest : here + 1;
+std::vector<double> uneven_times(double from, double to, int parts) {
+  constexpr double golden = 0.6180339887498949;
+  std::vector<double> times{from};
+  for (int k = 1; k < parts; ++k) {
+    const double shift = 0.5 * (std::fmod(k * golden, 1) - 0.5);
+    times.push_back(from + (to - from) * (k + shift) / parts);
   }
-  std::ranges::sort(numbers);
-  return numbers;
+  times.push_back(to);
+  return times;
 }
 
-double time_integral(const Function& value, const Vector& X, double from, double to, const std::vector<double>& turns) {
+std::vector<double> telling_times(const Function& value, const Vector& X, double from, double to, int parts) {
+  std::vector<double> times = uneven_times(from, to, parts);
+  const std::vector<double> turns = value.turns(X, times);
+  const bool few = turns.size() <= times.size();  // not all rows of a long table
+  times.insert(times.end(), turns.begin(), turns.end());
+  for (std::size_t n = 1; n < turns.size(); ++n) times.push_back(std::midpoint(turns[n - 1], turns[n]));
+  for (std::size_t n = 0; few && n < turns.size(); ++n) {
+    for (double beside = 0.1; beside > 1e-5; beside *= 0.1) {
+      for (const double side : {-beside, beside}) times.push_back(turns[n] + side * (to - from) / parts);
+    }
+  }
+  std::erase_if(times, [&](double t) { return !(t >= from && t <= to); });
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+double time_integral(const Function& value, const Vector& X, double from, double to) {
   if (!value.depends_on_time() || from == to) return (to - from) * value(X, from);
-  constexpr int parts = 64;
-  constexpr double off = 0.7745966692414834, outer = 5.0 / 18, inner = 8.0 / 18;  // three points, exact to t⁵
-  auto turn = std::ranges::upper_bound(turns, from);
-  double sum = 0, begin = from;
-  for (int part = 1; part <= parts;) {
-    double end = part == parts ? to : from + (to - from) * part / parts;
-    const bool turns_here = turn != turns.end() && *turn < end;
-    if (turns_here) end = *turn++;
-    if (!turns_here) ++part;
-    const double middle = 0.5 * (begin + end), reach = 0.5 * off * (end - begin);
-    sum += (end - begin) * (outer * (value(X, middle - reach) + value(X, middle + reach)) + inner * value(X, middle));
-    begin = end;
+  constexpr int parts = 32, most_halvings = 2000;
+  constexpr double accuracy = 1e-10, off = 0.7745966692414834, outer = 5.0 / 18, inner = 8.0 / 18;  // exact to t⁵
+  const auto rule = [&](double begin, double end) {
+    const double middle = std::midpoint(begin, end), reach = 0.5 * off * (end - begin);
+    return (end - begin) * (outer * (value(X, middle - reach) + value(X, middle + reach)) + inner * value(X, middle));
+  };
+  struct Part {
+    double begin, end, left, right, error;  // left, right: integrals over its halves
+    bool operator<(const Part& other) const { return error < other.error; }
+  };
+  std::priority_queue<Part> all;
+  double sum = 0, size = 0, error = 0;
+  const auto add = [&](double begin, double end, double whole) {
+    const double middle = std::midpoint(begin, end);
+    Part part{begin, end, rule(begin, middle), rule(middle, end), 0};
+    const bool may_halve = end - begin > 16 * std::numeric_limits<double>::epsilon() * std::abs(end);
+    if (may_halve) part.error = std::abs(part.left + part.right - whole);
+    sum += part.left + part.right, size += std::abs(part.left) + std::abs(part.right), error += part.error;
+    all.push(part);
+  };
+  const std::vector<double> times = telling_times(value, X, from, to, parts);
+  for (std::size_t n = 1; n < times.size(); ++n) add(times[n - 1], times[n], rule(times[n - 1], times[n]));
+  for (int n = 0; n < most_halvings && error > accuracy * size; ++n) {
+    const Part worst = all.top();
+    all.pop();
+    sum -= worst.left + worst.right, size -= std::abs(worst.left) + std::abs(worst.right), error -= worst.error;
+    const double middle = std::midpoint(worst.begin, worst.end);
+    add(worst.begin, middle, worst.left);
+    add(middle, worst.end, worst.right);
   }
   return sum;
 }

@@ -81,9 +81,9 @@ const ExpressionKey stretch(
 Section periodic_sides() {
   return {.name = "Periodic Sides",
           .meaning =
-              "Behind each side all bodies, and contact, continue with their images one period away; rigid tools have "
-              "no images. Elements end at both sides. The reaction is the force through the section along the axis, "
-              "tension positive.",
+              "Behind each side all bodies, contact and rigid tools continue with their images one period away. "
+              "Elements end at both sides. The reaction is the force through the section along the axis, tension "
+              "positive.",
           .keys = {components, lower_side, upper_side, stretch}};
 }
 

@@ -18,7 +18,7 @@ std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& cond
     any = true;
     const Vector offset = tool.offset(t);
     for (const int i : tool.points) {
-      const Vector place = body.current(i) - offset;
+      const Vector place = tool.nearest_image(body.domain, body.current(i) - offset);
       const Surface at = tool.met_by(i, tool.shape, place);
       const double closing = std::max(0.0, at.normal.dot(tool.free->velocity - velocities[i]));
       if (at.gap < steps * dt * closing + near * body.domain.cloud.spacings[i]) marks[i] = 1;

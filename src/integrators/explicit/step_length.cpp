@@ -74,25 +74,29 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
   if (estimated) estimate(body);
   levels_pending_ = levels_pending_ || frequency_bound_ > growth * bound_at_estimate_ ||
                     steps_since_estimate_ >= renewal_steps || exposed_are_pushed || (bonds_broke_ && allowance_ >= 0);
-  if (control_.fixed_dt > 0) {
-    // The remainder that round-off leaves after the last full step is not a step of its own.
-    const bool is_last =
-        left < control_.fixed_dt * (1 + round_off) || left - control_.fixed_dt < round_off_at(final_time);
-    dt_ = is_last ? left : control_.fixed_dt;
-  } else {
-    // Equal steps to the end, because a jump of dt at the last step would cost energy.
-    const double longest = longest_step(contact_stiffness, body.may_break(), estimated);
-    if (std::isinf(longest)) {
-      throw Error(
-          "Solver > Verlet: nothing limits the time step: no point has neighbors or touches another, or stiffness is "
-          "nothing beside the Density; expected a Fixed dt");
-    }
-    const double count = std::min(left / longest * (1 - round_off), (left - round_off_at(final_time)) / longest);
-    dt_ = left / std::max(std::ceil(count), 1.0);
-    if (levels_anew_) step_of_bound_ = dt_;
-    levels_anew_ = false;
+  if (control_.fixed_dt > 0) return choose_fixed(time, final_time);
+  // Equal steps to the end, because a jump of dt at the last step would cost energy.
+  const double longest = longest_step(contact_stiffness, body.may_break(), estimated);
+  if (std::isinf(longest)) {
+    throw Error(
+        "Solver > Verlet: nothing limits the time step: no point has neighbors or touches another, or stiffness is "
+        "nothing beside the Density; expected a Fixed dt");
   }
+  const double count = std::min(left / longest * (1 - round_off), (left - round_off_at(final_time)) / longest);
+  dt_ = left / std::max(std::ceil(count), 1.0);
+  if (levels_anew_) step_of_bound_ = dt_;
+  levels_anew_ = false;
   next_time_ = dt_ == left ? final_time : time + dt_;
+}
+
+// Where whole steps lead to the final time, they end on the times from which they do: round-off of the sums would
+// otherwise grow to a step of its own at the end.
+void StepLength::choose_fixed(double time, double final_time) {
+  const double fixed = control_.fixed_dt, left = final_time - time, steps = std::round(left / fixed);
+  const bool fits = std::abs(left - steps * fixed) < std::max(round_off * fixed, round_off_at(final_time));
+  const bool is_last = left < fixed || (fits && steps <= 1);
+  dt_ = is_last ? left : fixed;
+  next_time_ = is_last ? final_time : fits ? final_time - (steps - 1) * fixed : time + fixed;
 }
 
 // The longest step that is kept, as a fraction of the critical time step, whose bound fluctuates with the families of a

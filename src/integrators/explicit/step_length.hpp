@@ -59,6 +59,7 @@ class StepLength {
   void serialize(Archive& archive, const Body& body);  // collective, at the group of all owned points
 
  private:
+  void choose_fixed(double time, double final_time);
   double longest_stay(bool bonds_may_break) const;
   double longest_step(double contact_stiffness, bool bonds_may_break, bool estimated);
 

@@ -34,14 +34,15 @@ constexpr double part_in_round = 0.5, nearly_open = 0.1;
 // whose terms cancel; and largest by round-off: beyond it the body was handed over strained.
 constexpr double usual_cancelled = 200, most_cancelled = 1e4;
 
-// Root of the sum of squares over the points of each part, N: positions have the error ε |X|, forces ω² m times that.
+// Root of the sum of squares over the points of each piece, N: positions have the error ε |X|, forces ω² m times that.
 std::vector<double> round_off_of_places(const Body& body, const SeparateParts& parts) {
-  std::vector<double> sums(parts.count(), 0);
+  std::vector<double> sums(parts.pieces(), 0);
   for (const MaterialBlock& block : body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const int i = block.points[k];
       const double omega = frequency_bound(body, block, static_cast<int>(k));
-      sums[parts.of(i)] += std::pow(omega * omega * body.mass(i) * body.domain.reference(i).cwiseAbs().maxCoeff(), 2);
+      sums[parts.piece_of(i)] +=
+          std::pow(omega * omega * body.mass(i) * body.domain.reference(i).cwiseAbs().maxCoeff(), 2);
     }
   }
   body.domain.communicator.sum(sums);
@@ -49,7 +50,7 @@ std::vector<double> round_off_of_places(const Body& body, const SeparateParts& p
   return sums;
 }
 
-// Root of the sum of squares over the points of each part, N: the forces that are left in a body at rest.
+// Root of the sum of squares over the points of each piece, N: the forces that are left in a body at rest.
 std::vector<double> forces_at_rest(Body& body, const SeparateParts& parts) {
   const std::vector<HeatedPoints> heated = std::exchange(body.heated, {});  // at one temperature
   advance_by_any_step(body, 1, 0, false);  // any length: laws in rate form see nothing in a step of no length
@@ -57,17 +58,6 @@ std::vector<double> forces_at_rest(Body& body, const SeparateParts& parts) {
   Field forces(body.owned());
   for (int i = 0; i < body.owned(); ++i) forces[i] = body.domain.volume(i) * body.force_density[i];
   return parts.norms(forces, body.domain.communicator);
-}
-
-// N². Forces through periodic sides count as loads that are spread over all points. Fewer points bear them, so this is
-// a lower bound of the scale, and never hides an imbalance.
-double square_of_side_forces(const Body& body, std::vector<Vector> forces) {
-  if (body.domain.periods.empty()) return 0;
-  const Communicator& ranks = body.domain.communicator;
-  ranks.sum(std::span(forces.data()->data(), 3 * forces.size()));
-  double sum = 0;
-  for (const Vector& force : forces) sum += force.squaredNorm();
-  return sum / static_cast<double>(ranks.sum(static_cast<std::int64_t>(body.owned())));
 }
 
 // For each body, points with the forces by which conditions hold them, from all that act on them. Bodies turn each by
@@ -95,8 +85,8 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
       contact_(std::move(contact)),
       fracture_(std::move(fracture)),
       tolerance_(tolerance),
-      parts_(body.domain, contact_),
-      tools_(tools_of(conditions_), body, parts_),
+      parts_(body.domain),
+      tools_(tools_of(conditions_), body),
       committed_(body) {
   check_equilibria_possible(conditions_);
   breaks_ = may_break();
@@ -109,8 +99,8 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
   mirror_forces_before_.assign(side_count(body.domain), Vector::Zero());
   inner_ = outer_ = outer_before_ = forces_before_ = residual_;
   directions_ = body.domain.sites;
-  last_scale_.assign(parts_.count(), 0);
-  largest_scale_ = expansion_scale_ = last_scale_;
+  last_scale_.assign(parts_.pieces(), 0);
+  largest_scale_ = expansion_scale_ = first_residual_ = last_scale_;
   const std::vector<double> of_places = round_off_of_places(body, parts_);
   const Field of_body = body.force_density;  // of a run that goes on
   round_off_ = forces_at_rest(body, parts_);
@@ -127,6 +117,8 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
 void Equilibrium::begin(double t, double dt) {
   t_ = t, dt_ = dt;
   left_.clear();
+  parts_.separate();
+  begins_ = true;
   stretch_sides(t + dt);
   constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
   tools_.begin(body_, t, dt);
@@ -139,7 +131,7 @@ void Equilibrium::begin(double t, double dt) {
   check_values();
 }
 
-// Root of the sum of squares over the points of each part, N: by the expansion of this step while the points stay. A
+// Root of the sum of squares over the points of each piece, N: by the expansion of this step while the points stay. A
 // free body has no other forces.
 std::vector<double> Equilibrium::forces_of_expansion() {
   advance(0, t_, false);
@@ -176,14 +168,39 @@ Imbalance Equilibrium::evaluate(bool with_diagnostics) {
   failure_ = report.failure;
   residual_ = body_.force_density;
   for (int i = 0; i < body_.owned(); ++i) inner_[i] = body_.domain.volume(i) * residual_[i];
-  mirror_forces_ = mirror_forces(body_);
+  take_side_forces();
   add_forces(conditions_, t_ + dt_, body_);
   for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volume(i) * (body_.force_density[i] - residual_[i]);
   add_contact();
-  contact_.add_mirror_reactions(body_.domain, mirror_forces_);
+  add_contact_through_sides();
+  if (contact_.any() && parts_.several()) parts_.join(contact_, body_.domain.communicator);
   forces_.resize(body_.owned());
   for (int i = 0; i < body_.owned(); ++i) forces_[i] = body_.domain.volume(i) * body_.force_density[i];
   return measure(report.failure.has_value());
+}
+
+// The forces of the body's bonds through the sides, of all pieces and of each.
+void Equilibrium::take_side_forces() {
+  const std::vector<Period>& periods = body_.domain.periods;
+  if (periods.empty()) {
+    mirror_forces_ = mirror_forces(body_);
+    return;
+  }
+  mirror_forces_.assign(periods.size(), Vector::Zero());
+  side_forces_.assign(parts_.pieces() * periods.size(), 0);
+  for_each_period_force(body_, 0, nullptr, [&](int i, std::size_t m, double force) {
+    mirror_forces_[m][periods[m].axis] += force;
+    side_forces_[parts_.piece_of(i) * periods.size() + m] += force;
+  });
+}
+
+void Equilibrium::add_contact_through_sides() {
+  const std::vector<Period>& periods = body_.domain.periods;
+  const std::vector<Vector> without = mirror_forces_;
+  contact_.add_mirror_reactions(body_.domain, mirror_forces_);
+  for (std::size_t m = 0; m < periods.size(); ++m) {
+    side_forces_[parts_.contact_through_sides() * periods.size() + m] += (mirror_forces_[m] - without[m]).sum();
+  }
 }
 
 // Contact needs velocities to bound motion: it gets the displacements since the last trial, over one second.
@@ -243,10 +260,11 @@ double Equilibrium::friction_work() const {
 
 // Upper bound by Σ f·u ≤ ‖f‖ ‖u‖. A free body that expands has no forces but those that the search has left.
 double Equilibrium::work_of_errors() const {
-  const std::vector<double> norms = parts_.norms(step_displacement(), body_.domain.communicator);
+  const std::vector<double> norms = parts_.of_parts(parts_.norms(step_displacement(), body_.domain.communicator));
+  const std::vector<double> round_off = parts_.of_parts(round_off_), expansion = parts_.of_parts(expansion_scale_);
   double sum = 0;
   for (std::size_t p = 0; p < norms.size(); ++p) {
-    sum += (round_off_[p] + tolerance_.relative * expansion_scale_[p]) * norms[p];
+    sum += (round_off[p] + tolerance_.relative * expansion[p]) * norms[p];
   }
   return sum;
 }
@@ -255,29 +273,53 @@ double Equilibrium::work_of_errors() const {
 Imbalance Equilibrium::measure(bool failed) {
   Field of_tools(body_.owned(), Vector::Zero());
   tools_.add_forces(body_, of_tools);
-  const std::size_t parts = parts_.count();
-  std::vector<double> sums(2 * parts + 1, 0);  // of residuals and scales of the parts, then of failures
-  sums.back() = failed ? 1 : 0;
+  const std::size_t pieces = parts_.pieces();
+  std::vector<double> sums(2 * pieces, 0);  // of residuals and scales of the pieces; of side forces, then of failures
+  sums.insert(sums.end(), side_forces_.begin(), side_forces_.end());
+  sums.push_back(failed ? 1 : 0);
   for (int i = 0; i < body_.owned(); ++i) {
     forces_[i] += of_tools[i];
     residual_[i] = constraints_->free_projection(i) * forces_[i];
     outer_[i] -= forces_[i] - residual_[i];
-    sums[parts_.of(i)] += residual_[i].squaredNorm();
-    sums[parts + parts_.of(i)] += (outer_[i] + of_tools[i]).squaredNorm();
+    sums[parts_.piece_of(i)] += residual_[i].squaredNorm();
+    sums[pieces + parts_.piece_of(i)] += (outer_[i] + of_tools[i]).squaredNorm();
   }
   body_.domain.communicator.sum(sums);
-  const double of_sides = square_of_side_forces(body_, mirror_forces_);
-  std::vector<Imbalance> all;
-  for (std::size_t p = 0; p < parts; ++p) {
-    const double of_expansion = expansion_scale_[p] * expansion_scale_[p];
-    Imbalance now{std::sqrt(sums[p]), std::sqrt(sums[parts + p] + of_sides + of_expansion), round_off_[p],
-                  sums.back() > 0};
-    if (!std::isfinite(now.norm + now.scale)) now.failed = true;
-    last_scale_[p] = now.scale;
-    now.scale = std::max(now.scale, smallest_scale * largest_scale_[p]);
-    all.push_back(now);
+  if (std::exchange(begins_, false)) {
+    for (std::size_t p = 0; p < pieces; ++p) first_residual_[p] = std::sqrt(sums[p]);
   }
-  return worst_of(all);
+  return worst_of(imbalances(sums, sums.back() > 0));
+}
+
+// Of the parts, at their first pieces. `sums`: of the pieces over all ranks, as in measure().
+std::vector<Imbalance> Equilibrium::imbalances(const std::vector<double>& sums, bool failed) {
+  const std::size_t pieces = parts_.pieces(), periods = body_.domain.periods.size();
+  struct Part {
+    double norm2 = 0, scale2 = 0, largest = 0, points = 0;
+    std::vector<double> through_sides;
+  };
+  std::vector<Part> parts(pieces, {.through_sides = std::vector<double>(periods, 0)});
+  for (std::size_t p = 0; p < pieces; ++p) {
+    Part& part = parts[parts_.part_of_piece(static_cast<int>(p))];
+    part.norm2 += sums[p], part.scale2 += sums[pieces + p] + expansion_scale_[p] * expansion_scale_[p];
+    part.largest = std::max(part.largest, largest_scale_[p]), part.points += parts_.points(static_cast<int>(p));
+    for (std::size_t m = 0; m < periods; ++m) part.through_sides[m] += sums[2 * pieces + p * periods + m];
+  }
+  const std::vector<double> round_off = parts_.of_parts(round_off_), first = parts_.of_parts(first_residual_);
+  std::vector<Imbalance> all(pieces);
+  for (std::size_t p = 0; p < pieces; ++p) {
+    const Part& part = parts[p];
+    if (part.points == 0) continue;
+    double of_sides = 0;
+    for (const double force : part.through_sides) of_sides += force * force / part.points;
+    double scale = std::sqrt(part.scale2 + of_sides);
+    if (scale == 0) scale = first[p];
+    all[p] = {std::sqrt(part.norm2), std::max(scale, smallest_scale * part.largest), round_off[p], failed};
+    if (!std::isfinite(all[p].norm + scale)) all[p].failed = true;
+    last_scale_[p] = scale;
+  }
+  for (std::size_t p = 0; p < pieces; ++p) last_scale_[p] = last_scale_[parts_.part_of_piece(static_cast<int>(p))];
+  return all;
 }
 
 // Parts that are balanced wait for the others, without forces: their round-off may be more than the forces of those.
@@ -289,7 +331,7 @@ Imbalance Equilibrium::worst_of(const std::vector<Imbalance>& of_parts) {
   };
   const auto by_rating = [&](const Imbalance& a, const Imbalance& b) { return rating(a) < rating(b); };
   const Imbalance worst = *std::ranges::max_element(of_parts, by_rating);
-  if (of_parts.size() == 1 || worst.failed || is_balanced(worst, tolerance_)) return worst;
+  if (!parts_.several() || worst.failed || is_balanced(worst, tolerance_)) return worst;
   double squares[3] = {};
   for (const Imbalance& one : of_parts) {
     if (is_balanced(one, tolerance_)) continue;
@@ -303,9 +345,9 @@ Imbalance Equilibrium::worst_of(const std::vector<Imbalance>& of_parts) {
 
 bool Equilibrium::needs_round() const {
   const Communicator& ranks = body_.domain.communicator;
-  std::vector<double> pressures = tools_.largest_pressures(parts_.count());
+  std::vector<double> pressures = tools_.largest_pressures(parts_);
   ranks.max(pressures);
-  return ranks.max(tools_.violation(pressures)) > 1;
+  return ranks.max(tools_.violation(pressures, parts_)) > 1;
 }
 
 bool Equilibrium::contact_has_changed() { return body_.domain.communicator.any(tools_.has_changed()); }
@@ -459,11 +501,8 @@ void Equilibrium::serialize_search(Archive& archive) {
   serialize_mirror_forces(archive, mirror_forces_);
   archive.number("step_begin", t_);
   archive.number("step_length", dt_);
-  for (std::size_t p = 0; p < largest_scale_.size(); ++p) {
-    const std::string part = p == 0 ? "" : "_" + std::to_string(p);
-    archive.number("largest_scale" + part, largest_scale_[p]);
-    archive.number("round_off" + part, round_off_[p]);  // of where the run began, not of the mesh
-  }
+  serialize_of_pieces(archive, "largest_scale", largest_scale_);
+  serialize_of_pieces(archive, "round_off", round_off_);  // of where the run began, not of the mesh
   const contact::Kinematics kinematics{body_.domain, body_.velocity, body_.density};
   contact_.serialize(archive, kinematics, 0);
   tools_.serialize(archive, body_);
@@ -474,6 +513,20 @@ void Equilibrium::serialize_search(Archive& archive) {
   for (int i = 0; i < body_.owned(); ++i) positions_of_contact_[i] = body_.current(i);
   committed_.take(body_);
   if (dt_ > 0) constraints_.emplace(held_directions(conditions_, body_, t_, dt_), body_);  // for reactions
+}
+
+// By points, as bonds may have broken since, by which pieces then have other numbers.
+void Equilibrium::serialize_of_pieces(Archive& archive, const std::string& name, std::vector<double>& of_pieces) {
+  std::vector<double> of_points(body_.owned());
+  for (int i = 0; i < body_.owned(); ++i) of_points[i] = of_pieces[parts_.piece_of(i)];
+  archive.field(name, 1, [&](std::size_t i, int) -> double& { return of_points[i]; });
+  if (!archive.loading()) return;
+  std::ranges::fill(of_pieces, 0);
+  for (int i = 0; i < body_.owned(); ++i) {
+    double& one = of_pieces[parts_.piece_of(i)];
+    one = std::max(one, of_points[i]);
+  }
+  body_.domain.communicator.max(of_pieces);
 }
 
 double Equilibrium::external_work() const {

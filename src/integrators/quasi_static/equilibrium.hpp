@@ -130,9 +130,13 @@ class Equilibrium {
   void check_values();
   std::vector<double> forces_of_expansion();
   void add_contact();
+  void take_side_forces();
+  void add_contact_through_sides();
   Imbalance measure(bool failed);
+  std::vector<Imbalance> imbalances(const std::vector<double>& sums, bool failed);
   Imbalance worst_of(const std::vector<Imbalance>& of_parts);
   void begin_flow_of_cells();
+  void serialize_of_pieces(Archive& archive, const std::string& name, std::vector<double>& of_pieces);
   void hold_at(double t);
   void stretch_sides(double t);
 
@@ -148,7 +152,9 @@ class Equilibrium {
   Committed committed_;
   std::optional<Constraints> constraints_;
   double t_ = 0, dt_ = 0;
-  std::vector<double> round_off_, last_scale_, largest_scale_, expansion_scale_;  // of parts, N
+  // Of pieces, N; the residual at the first trial of a step is the scale of a part on which nothing acts.
+  std::vector<double> round_off_, last_scale_, largest_scale_, expansion_scale_, first_residual_;
+  bool begins_ = false;  // no trial has been made since begin()
   std::optional<Failure> failure_;
   Field forces_, residual_;                     // N: all; those in free directions
   Field inner_;                                 // N, of the body alone
@@ -156,6 +162,7 @@ class Equilibrium {
   Field outer_, outer_before_;                  // loads and reactions, N; at the start of the step
   Field left_;                                  // N: lost by bonds or cells at the start of the step; empty if none
   Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors or periods on this rank's points
+  std::vector<double> side_forces_;             // N, of pieces through each of domain.periods, on this rank's points
   std::vector<Vector> positions_of_contact_;    // positions at the last evaluation of contact, m
   std::vector<PointTangent> tangents_;
   std::vector<Site> directions_;

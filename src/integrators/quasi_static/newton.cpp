@@ -150,8 +150,8 @@ int Newton::correct(const Field& remaining, bool moves, double accuracy, Field& 
   // No stiffness couples separate parts of the body. Each part has its own unit of force, so that small forces in one
   // part are found as accurately as large ones in another.
   const SeparateParts& parts = equilibrium_.parts();
-  std::vector<double> units(parts.count(), 1);
-  if (parts.count() > 1) units = parts.norms(right, equilibrium_.body().domain.communicator);
+  std::vector<double> units(parts.pieces(), 1);
+  if (parts.several()) units = parts.of_parts(parts.norms(right, equilibrium_.body().domain.communicator));
   for (double& unit : units) unit = unit > 0 ? unit : 1;
   for (std::size_t i = 0; i < right.size(); ++i) right[i] /= units[parts.of(static_cast<int>(i))];
   const int most = damping_ > 0 ? most_products_damped : most_products;

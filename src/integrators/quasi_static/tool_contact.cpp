@@ -26,12 +26,10 @@ constexpr double just_touching = 1e-9;  // spacings
 
 }  // namespace
 
-ToolContact::ToolContact(std::vector<RigidTool> tools, const Body& body, const SeparateParts& parts)
-    : tools_(std::move(tools)) {
+ToolContact::ToolContact(std::vector<RigidTool> tools, const Body& body) : tools_(std::move(tools)) {
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     for (const int i : tools_[t].points) {
-      contact_points_.push_back(
-          {.tool = static_cast<int>(t), .point = i, .part = parts.of(i), .spacing = body.domain.cloud.spacings[i]});
+      contact_points_.push_back({.tool = static_cast<int>(t), .point = i, .spacing = body.domain.cloud.spacings[i]});
     }
   }
   offsets_.resize(tools_.size(), Vector::Zero());
@@ -66,7 +64,8 @@ void ToolContact::add_forces(const Body& body, Field& forces) {
   for (ContactPoint& contact : contact_points_) {
     const Vector place = body.current(contact.point);
     const RigidTool& tool = tools_[contact.tool];
-    const Surface at = tool.met_by(contact.point, tool.shape, place - offsets_[contact.tool]);
+    const Vector image = tool.nearest_image(body.domain, place - offsets_[contact.tool]);
+    const Surface at = tool.met_by(contact.point, tool.shape, image);
     const Vector displacement = place - contact.start - travels_[contact.tool];
     press(at, displacement - displacement.dot(at.normal) * at.normal, contact);
     forces[contact.point] += contact.now.force;
@@ -109,19 +108,21 @@ void ToolContact::add_springs(std::vector<Tensor>& springs) const {
   for (const ContactPoint& contact : contact_points_) springs[contact.point] += contact.stiffness;
 }
 
-std::vector<double> ToolContact::largest_pressures(int parts) const {
-  std::vector<double> largest(parts, 0);
+std::vector<double> ToolContact::largest_pressures(const SeparateParts& parts) const {
+  std::vector<double> largest(parts.pieces(), 0);
   for (const ContactPoint& contact : contact_points_) {
-    largest[contact.part] = std::max(largest[contact.part], contact.now.pressure);
+    double& of_part = largest[parts.of(contact.point)];
+    of_part = std::max(of_part, contact.now.pressure);
   }
   return largest;
 }
 
-double ToolContact::violation(const std::vector<double>& largest_pressures) const {
+double ToolContact::violation(const std::vector<double>& largest_pressures, const SeparateParts& parts) const {
   double largest = 0;
   for (const ContactPoint& contact : contact_points_) {
     if (contact.now.pressure == 0) continue;
-    const double friction = tools_[contact.tool].friction, largest_pressure = largest_pressures[contact.part];
+    const double friction = tools_[contact.tool].friction,
+                 largest_pressure = largest_pressures[parts.of(contact.point)];
     const double soft =
         contact.sticks ? (contact.now.drag - contact.tangential).norm() / (friction * largest_pressure) : 0;
     const double allowed = std::clamp(most_of_compression * largest_pressure / contact.penalty,

@@ -17,7 +17,7 @@ namespace strut {
 
 class ToolContact {
  public:
-  ToolContact(std::vector<RigidTool> tools, const Body& body, const SeparateParts& parts);
+  ToolContact(std::vector<RigidTool> tools, const Body& body);
 
   bool any() const { return !tools_.empty(); }
 
@@ -30,10 +30,11 @@ class ToolContact {
   void add_stiffness(const Field& field, Field& result) const;
   void add_springs(std::vector<Tensor>& springs) const;
 
-  std::vector<double> largest_pressures(int parts) const;  // N, of the last forces on this rank's points of each part
+  // N, of the last forces on this rank's points of each part.
+  std::vector<double> largest_pressures(const SeparateParts& parts) const;
   // Error of contact at the last forces on this rank's points, over the allowed one: above 1 another round of the
   // multipliers is needed. `largest_pressures`: over all ranks, N.
-  double violation(const std::vector<double>& largest_pressures) const;
+  double violation(const std::vector<double>& largest_pressures, const SeparateParts& parts) const;
   // True if other points of this rank touch than at the last call.
   bool has_changed();
   void augment();  // λ ← t
@@ -55,7 +56,7 @@ class ToolContact {
     Vector drag = Vector::Zero(), force = Vector::Zero();  // t_t, t_n n + t_t; N
   };
   struct ContactPoint {  // of a tool on a point
-    int tool, point, part;
+    int tool, point;
     double penalty = 0;                  // ε, N/m
     double spacing = 0;                  // m
     double multiplier = 0;               // λ_n, N

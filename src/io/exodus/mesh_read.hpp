@@ -29,8 +29,8 @@ struct MeshLayout {
   std::vector<NodeSet> node_sets;
 };
 
-// A mesh, read in parts: values from number `begin` on, to fill the span. All functions throw Error if a value is out of
-// range.
+// A mesh, read in parts: values from number `begin` on, to fill the span. All functions throw Error if a value is out
+// of range.
 class MeshSource {
  public:
   using Place = std::array<double, 3>;

@@ -14,10 +14,10 @@ struct UnmatchedFaces {
   std::int64_t element;  // the first element that has one, in the order of the file, from 1
 };
 
-// Collective. By pairs of blocks, the faces without a twin that lie over others at two edges or more: squares that are
-// halved along one diagonal by the elements on one side, along the other or not at all by those on the other side. The
-// mesh of a file, which must be readable (read_exodus), or in memory on rank 0. One without tetrahedra has none, and is
-// not read.
+// Collective. By pairs of blocks, the faces without a twin that lie over others at three corners or more: squares that
+// are halved along one diagonal by the elements on one side, along the other or not at all by those on the other side,
+// and faces of large elements beside several small ones. The mesh of a file, which must be readable (read_exodus), or
+// in memory on rank 0.
 std::vector<UnmatchedFaces> unmatched_faces(const std::filesystem::path& file, const Communicator& communicator);
 std::vector<UnmatchedFaces> unmatched_faces(const Mesh& mesh, const Communicator& communicator);
 

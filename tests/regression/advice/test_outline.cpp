@@ -471,20 +471,26 @@ TEST(Tools, ThatAreThickerThanNodesOfTetrahedraAreApartAreNotWarnedOf) {
   EXPECT_EQ(of_thick_tool.find("its cells are no cubes"), std::string::npos) << of_thick_tool;
 }
 
-// The lowest cells end 2 mm above the floor, which the bar reaches at 20 µs with 100 m/s: in the 43rd of 100 parts.
+// The lowest cells end 2 mm above the floor, which the bar reaches at 20 µs with 100 m/s: in the 43rd of 100 uneven parts.
 TEST(Tools, ThatAreApartFromAllPointsAreToldOf) {
   const std::string floor = key("Point", "0 0 -2e-3") + key("Normal", "0 0 1");
   const std::string flight = along("flight", "Initial Velocity", "all", "z", "-100");
   expect_told(told_of_tool("Rigid Plane", floor),
               {"WARNING: the tool 'tool' is 0.002 m from all points at the start", "touches nothing until the end"});
   const std::string flies = told_of_tool("Rigid Plane", floor, flight, "4.7e-5");
-  expect_told(flies, {"the tool 'tool' is 0.002 m from all points at the start", "before about t = 1.97e-05 s"});
+  expect_told(flies, {"the tool 'tool' is 0.002 m from all points at the start", "before about t = 1.98e-05 s"});
   EXPECT_EQ(flies.find("WARNING"), std::string::npos);
   expect_told(told_of_tool("Rigid Plane", floor, flight, "1.9e-5"), {"touches nothing until the end"});
   expect_told(told_of_tool("Rigid Plane", floor + key("Travel Z", "100*t"), "", "4.7e-5"),
-              {"before about t = 1.97e-05 s"});
+              {"before about t = 1.98e-05 s"});
   EXPECT_EQ(told_of_tool("Rigid Plane", key("Point", "0 0 0") + key("Normal", "0 0 1")).find("the tool"),
             std::string::npos);
+  // It hammers a hundred times, 0.05 mm deep or short of the bar.
+  const auto hammers = [&](const std::string& by) {
+    return told_of_tool("Rigid Plane", floor + key("Travel Z", by + "*sin(3.14159265358979*t/4.7e-7)^2"), "", "4.7e-5");
+  };
+  expect_told(hammers("2.05e-3"), {"before about t = "});
+  expect_told(hammers("1.95e-3"), {"WARNING: the tool 'tool' is 0.002 m", "touches nothing until the end"});
   const std::string later = told_of_tool(
       "Rigid Plane", floor, along("push", "Prescribed Velocity", "top", "z", "t > 1e-5 ? -100 : 0"), "4.7e-5");
   expect_told(later, {"until the end: only loads, impacts and motions that change later may bring them together"});
@@ -674,7 +680,7 @@ TEST(OblongCells, OfOrdinaryPointsSurfacesAndCracksAreToldOf) {
   expect_told(told(itself), {dilatation, surfaces});
 }
 
-TEST(OblongCells, OfTwoSizesAreToldOfWhereCracksTakeTheirConstants) {
+TEST(OblongCells, OfTwoSizesAreToldOfWhereCracksAndContactTakeTheirConstants) {
   const RunFolder folder;
   folder.write("points.txt",
                cubes(1, Vector::Zero(), 4, 4, 4, 1e-3) + cubes(1, Vector::Constant(20e-3), 4, 4, 4, 2e-3));
@@ -689,6 +695,19 @@ TEST(OblongCells, OfTwoSizesAreToldOfWhereCracksTakeTheirConstants) {
     EXPECT_EQ(all.find("its cells have edges of 0.001 to 0.002 m") != std::string::npos,
               energy == std::string("Fracture Energy"))
         << all;
+  }
+  parts.damage.clear();
+  parts.blocks =
+      section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "2.015"));
+  const std::string by_points =
+                        key("Contact Model", "Hertz") + key("Contact Radius", "1e-3") + key("Effective Modulus", "1e9"),
+                    sizes = "its cells have edges of 0.001 to 0.002 m, and its contact ";
+  for (const auto& [model, words] :
+       {std::pair(key("Contact Model", "Surface"), sizes + "by surfaces the constants of"),
+        {by_points, sizes + "one Contact Radius: the faces of some meet 0.001 m earlier"}}) {
+    parts.contact = section("Models", section("m", model)) +
+                    section("Interactions", section("Self Contact", key("Contact Model", "m")));
+    expect_told(described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world), {words});
   }
 }
 

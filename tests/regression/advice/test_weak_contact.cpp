@@ -80,6 +80,19 @@ TEST(WeakContact, PressureOfTheImpactIsTheLimitOfTheSpring) {
 }
 
 // The block comes back: the bound is that of plane waves, which faces of few points do not reach.
+// A block that flies the other way runs into an image of the other one.
+TEST(WeakContact, IsFoundThroughPeriodicSides) {
+  const RunFolder folder;
+  for (const auto& [upper, found] : {std::pair{"9.5e-3", true}, {"14e-3", false}}) {
+    Parts parts = by_penalty(folder, h, 0.99 * bearing_penalty());
+    parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "100") +
+                       section("sides", key("Type", "Periodic Sides") + key("Coordinate", "z") + key("Lower", "0") +
+                                            key("Upper", upper));
+    const std::string warnings = warnings_of(folder, parts);
+    EXPECT_EQ(warnings.find(" Pa of an elastic impact at 100 m/s") != std::string::npos, found) << warnings;
+  }
+}
+
 TEST(WeakContact, WhatBearsThePressureHolds) {
   const RunFolder folder;
   Simulation run(folder, by_penalty(folder, h, 1.01 * bearing_penalty()));

@@ -249,6 +249,20 @@ TEST(Pulses, OfFewStepsAreTold) {
   }
 }
 
+// A pulse and a jump to and fro of a 5000th of the run, 20 steps, at times that the text names.
+TEST(Pulses, ShorterThanSamplesOfARunAreTold) {
+  const auto warnings_of = [](const std::string& condition) {
+    Parts parts = block(condition);
+    parts.times = key("Final Time", "1e-2");
+    return said_of(parts).warnings;
+  };
+  const std::string pulse = "(t &gt; 5.0021e-3)*(1e6*t &lt; 5004.1)";
+  expect_said(warnings_of(along("a", "Body Force", "foot", "z", pulse + "*1e9")),
+              {"WARNING: Boundary Conditions > a > Value: jumps twice within 2e-06 s"}, "a load");
+  expect_said(warnings_of(displacement("a", "foot", "z", pulse + "*1e-4")),
+              {"WARNING: Boundary Conditions > a > Value: jumps by 0.0001 m"}, "a displacement");
+}
+
 // A load of equilibria that the explicit steps begin without jumps once.
 TEST(Pulses, ThatActedBeforeTheStepsAreNone) {
   const RunFolder folder;
@@ -267,6 +281,7 @@ TEST(Values, BetweenLoadStepsAreTold) {
   for (const char* value :
        {"1e-12/(2.2e-6 - t) - 1e-12/2.2e-6", "1e-4*sin(3.14159265358979e6*2*t)",
         "table(t, 0, 0, 1.25e-6, 1e-4, 5e-6, 0)", "table(t, 0, 0, 1e-6, 1e-4, 1.25e-6, 5e-5, 1.5e-6, 1e-4, 5e-6, 0)",
+        "(t &gt; 2.23e-6)*(t &lt; 2.24e-6)*1e-4",
         "(x &gt; 1e-3 &amp;&amp; x &lt; 3e-3 ? 1 : 0)*table(t, 0, 0, 1.25e-6, 1e-4, 5e-6, 0)"}) {
     expect_said(said_of(block(displacement("a", "foot", "z", value)), Loading::slow).warnings,
                 {"WARNING: Boundary Conditions > a > Value: reaches", "between two load steps", "10 load steps"},

@@ -572,21 +572,37 @@ TEST(PeriodicSides, TellWhereTheyDoNotContinueTheMesh) {
   EXPECT_NE(told(true, "0", "7e-3").find(path + "no bond crosses its sides"), std::string::npos);
 }
 
-// A roll across a side has no image at the other one; between the sides, or along the axis, it needs none.
-TEST(PeriodicSides, TellOfToolsAcrossThem) {
+// A bar that slides through the sides meets a box and a roll wherever these stand, as their images between the sides.
+TEST(PeriodicSides, ToolsHaveImages) {
   const RunFolder folder;
-  const auto told = [&](const std::string& point, const std::string& axis, const std::string& travel) {
+  const std::string sliding = sides("x", "0", "4e-3") + along("slide", "Initial Velocity", "all", "x", "600") +
+                              plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1");
+  const auto pressed_by = [&](const std::string& shape) {
     Parts parts;
-    parts.conditions = sides("x", "0", "4e-3") +
-                       section("roll", key("Type", "Rigid Cylinder") + key("Point", point) + key("Axis", axis) +
-                                           key("Radius", "1.6e-3") + key("Travel X", travel));
-    const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
-    return told_at_the_start(deck, folder.world).warnings.find("across one of the periodic sides") != std::string::npos;
+    parts.conditions = sliding + section("press", shape + key("Travel Z", "-20*t"));
+    return run_of(folder, parts);
   };
-  EXPECT_FALSE(told("2e-3 0 -1.6e-3", "0 1 0", "0"));
-  EXPECT_FALSE(told("0 2e-3 -1.6e-3", "1 0 0", "0"));
-  EXPECT_TRUE(told("4e-3 0 -1.6e-3", "0 1 0", "0"));
-  EXPECT_TRUE(told("2e-3 0 -1.6e-3", "0 1 0", "200*t"));  // by 1 mm until the end
+  const auto box = [](const std::string& from, const std::string& to) {
+    return key("Type", "Rigid Box") + key("Lower Corner", from + " -1e-3 6e-3") +
+           key("Upper Corner", to + " 9e-3 9e-3");
+  };
+  const auto roll = [](const std::string& x) {
+    return key("Type", "Rigid Cylinder") + key("Point", x + " 0 7.6e-3") + key("Axis", "0 1 0") +
+           key("Radius", "1.6e-3");
+  };
+  const std::vector<Vector> free = pressed_by(box("1e-3", "2.5e-3") + key("Node Set", "foot"));
+  const std::vector<std::vector<std::string>> alike{
+      {box("1e-3", "2.5e-3"), box("5e-3", "6.5e-3"), box("-7e-3", "-5.5e-3")},
+      {roll("3.5e-3"), roll("-0.5e-3"), roll("11.5e-3")}};
+  for (const std::vector<std::string>& shapes : alike) {
+    const std::vector<Vector> between = pressed_by(shapes[0]);
+    for (const std::string& shape : shapes) {
+      const std::vector<Vector> moved = pressed_by(shape);
+      if (folder.world.rank() != 0) continue;
+      EXPECT_LT(difference(moved, between), 1e-9) << shape;  // round-off of distances
+      EXPECT_GT(difference(moved, free), 1e-4) << shape;
+    }
+  }
 }
 
 // A box as long as the period touches its own images, wherever it stands: it presses a bar that slides through the
@@ -626,6 +642,21 @@ TEST(PeriodicSides, TellOfASuddenStretch) {
   EXPECT_FALSE(told("1 + 1e3*t", "1e3*x"));
   EXPECT_FALSE(told("1 + 2e8*t^2", "0"));
   EXPECT_FALSE(told("1", "0"));
+}
+
+// So they do of a body between whose sides another one, in which waves are 14 times as fast, meets none of them.
+TEST(PeriodicSides, TellOfASuddenStretchOfTheBodiesThatTheyBond) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 4, 1e-3) + cubes(2, {0, 0, 8e-3}, 2, 2, 2, 1e-3));
+  Parts parts = thrown_block("");
+  parts.materials += section("hard", key("Material Model", "Elastic Correspondence") + key("Density", "8930") +
+                                         key("Young's Modulus", "234e11") + key("Poisson's Ratio", "0.35"));
+  parts.blocks = changed(parts.blocks, key("Block Names", "block_2") + key("Material", "copper"),
+                         key("Block Names", "block_2") + key("Material", "hard"));
+  parts.conditions = sides("x", "0", "4e-3", "1 + 1e3*t");
+  parts.times = key("Final Time", "5e-6");
+  const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+  EXPECT_NE(told_at_the_start(deck, folder.world).warnings.find("> Stretch: the period changes by"), std::string::npos);
 }
 
 // A horizon by a factor has the round-off of a spacing.

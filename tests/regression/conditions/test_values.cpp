@@ -30,10 +30,12 @@ const std::vector<Case> cases{
 };
 
 // The error that ends the run, on every rank.
-std::string error_of(const std::string& conditions, bool slowly, const std::string& frequency) {
+std::string error_of(const std::string& conditions, bool slowly, const std::string& frequency,
+                     const std::string& final_time = "5e-6") {
   const RunFolder folder;
   Parts parts;
   parts.conditions = conditions;
+  parts.times = key("Final Time", final_time);
   parts.verlet = slowly ? key("Number of Load Steps", "10") : "";
   parts.history = key("Filename", (folder / "history.csv").string()) + key("Frequency", frequency);
   std::string text = parts.text();
@@ -70,9 +72,33 @@ TEST(ValueThatIsNoNumber, EndsEquilibriaByItsName) {
   for (const Case& one : cases) expect_named(one, true, "1");
 }
 
+// No step needs a value later than the final time.
+TEST(ValueThatIsNoNumber, IsNoneUpToTheFinalTime) {
+  for (const Case& one : cases) EXPECT_EQ(error_of(one.conditions, false, "1", "3e-6"), "") << one.path;
+}
+
 TEST(ValueThatIsNoNumber, IsRefusedAtTheInitialTimeOfToolsToo) {
   const std::string error = error_of(pushed(key("Travel Z", "log(t)")), false, "1");
   EXPECT_NE(error.find("Boundary Conditions > tool > Travel Z: 'log(t)' is -inf"), std::string::npos) << error;
+}
+
+// A velocity or a load without an integral; one with an integral, and a steep one, are none.
+TEST(Value, ThatGoesToInfinityIsRefused) {
+  const auto error = [](const std::string& type, const std::string& value, bool slowly) {
+    return error_of(foot + along("a", type, "top", "z", value), slowly, "1");
+  };
+  for (const std::string value : {"1e-9/(t - 2.00123e-6)", "1e-3*tan(1e6*t)", "1e-18/(t - 2.00123e-6)^2"}) {
+    for (const bool slowly : {false, true}) {
+      const std::string found = error("Prescribed Velocity", value, slowly);
+      EXPECT_NE(found.find("Boundary Conditions > a > Value: '" + value + "' goes to infinity at t = "),
+                std::string::npos)
+          << value << found;
+    }
+    EXPECT_NE(error("Body Force", value, false).find("goes to infinity"), std::string::npos) << value;
+  }
+  for (const std::string value :
+       {"1e-6/sqrt(abs(t - 2.00123e-6))", "1e-3*exp(-(((t - 2.00123e-6)/3e-8)^2))", "1e-3*tan(1e5*t)"})
+    EXPECT_EQ(error("Prescribed Velocity", value, false), "") << value;
 }
 
 }  // namespace

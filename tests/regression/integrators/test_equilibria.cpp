@@ -255,17 +255,18 @@ TEST(SlowLoading, WaitsForWhatActs) {
 }
 
 // A soft block, pulled or pressed by a plane with some 0.1 N, has the force that it has alone beside one that bears
-// 40 kN, and one that bears nothing: they do not touch it, and their forces are no measure for its own.
-TEST(SlowLoading, EachBodyIsInEquilibriumByItsOwnForces) {
+// 40 kN, and one that bears nothing: they do not touch it, and their forces are no measure for its own. So it is where
+// the deck makes them one body, where contact is declared between them, and between periodic sides.
+TEST(SlowLoading, EachPieceIsInEquilibriumByItsOwnForces) {
   const auto held = [](const std::string& body, const std::string& end, const std::string& to) {
     const std::string set = body + end;
     return along(set + "_x", "Prescribed Displacement", set, "x", "0") +
            along(set + "_y", "Prescribed Displacement", set, "y", "0") +
            along(set, "Prescribed Displacement", set, "z", to);
   };
-  const auto block = [](const std::string& name, const std::string& material) {
+  const auto block = [](const std::string& name, const std::string& material, bool separate) {
     return section(name, key("Block Names", name) + key("Material", material) + key("Horizon", "2.2e-3") +
-                             key("Separate Body", "true"));
+                             key("Separate Body", separate ? "true" : "false"));
   };
   const auto metal = [](const std::string& name, const std::string& more) {
     return section(name, key("Density", "50") + key("Poisson's Ratio", "0.3") + more);
@@ -274,21 +275,31 @@ TEST(SlowLoading, EachBodyIsInEquilibriumByItsOwnForces) {
     return key(body + "_low", "z &lt; 1.1e-3 &amp;&amp; " + where) +
            key(body + "_high", "z &gt; 6.9e-3 &amp;&amp; " + where);
   };
-  const auto force_with = [&](const std::string& act, bool with_others) {
+  enum Setting { separate, one_body, in_contact, periodic };
+  const auto force_with = [&](const std::string& act, Setting setting, bool with_others) {
     Parts parts;
     parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
     std::string points = cubes(1, {0, 0, 0}, 4, 4, 8, 1e-3);
     parts.node_sets = ends("soft", "x &lt; 0.01");
     parts.materials = metal("rubber", key("Material Model", "Elastic Plastic Correspondence") +
                                           key("Young's Modulus", "1e6") + key("Yield Stress", "1e4"));
-    parts.blocks = block("block_1", "rubber");
+    const bool apart = setting != one_body;
+    parts.blocks = block("block_1", "rubber", apart);
     parts.conditions = held("soft", "_low", "0") + act;
+    if (setting == periodic) {
+      parts.conditions += section(
+          "sides", key("Type", "Periodic Sides") + key("Coordinate", "y") + key("Lower", "0") + key("Upper", "4e-3"));
+    }
     if (with_others) {
       points += cubes(2, {0.02, 0, 0}, 4, 4, 8, 1e-3) + cubes(3, {0.04, 0, 0}, 4, 4, 8, 1e-3);
       parts.node_sets += ends("stiff", "x &gt; 0.01 &amp;&amp; x &lt; 0.03") + ends("idle", "x &gt; 0.03");
       parts.materials +=
           metal("steel", key("Material Model", "Elastic Correspondence") + key("Young's Modulus", "2e11"));
-      parts.blocks += block("block_2", "steel") + block("block_3", "rubber");
+      parts.blocks += block("block_2", "steel", apart) + block("block_3", "rubber", apart);
+      if (setting == in_contact) {
+        parts.contact = section("Models", section("m", key("Contact Model", "Surface"))) +
+                        section("Interactions", section("General Contact", key("Contact Model", "m")));
+      }
       parts.conditions += held("stiff", "_low", "0") + held("stiff", "_high", "-1e-4*t") + held("idle", "_low", "0");
     }
     const Files files = files_of(parts, key("Number of Load Steps", "2"), {"Reaction_Z(soft_low)"}, {}, points);
@@ -299,11 +310,13 @@ TEST(SlowLoading, EachBodyIsInEquilibriumByItsOwnForces) {
   const std::string pressed =
       section("act", key("Type", "Rigid Plane") + key("Node Set", "block_1") + key("Point", "0 0 8e-3") +
                          key("Normal", "0 0 -1") + key("Travel Z", "-4e-4*t"));
-  for (const std::string& act : {pulled, pressed}) {
-    const double alone = force_with(act, false);
-    EXPECT_GT(std::abs(alone), 0.05);
-    // Residual forces are 1e-6 of the reactions, and what the soft body yields to them may be some times that.
-    EXPECT_NEAR(force_with(act, true), alone, 1e-4 * std::abs(alone)) << act;
+  for (const Setting setting : {separate, one_body, in_contact, periodic}) {
+    for (const std::string& act : {pulled, pressed}) {
+      const double alone = force_with(act, setting, false);
+      EXPECT_GT(std::abs(alone), 0.05);
+      // Residual forces are 1e-6 of the reactions, and what the soft body yields to them may be some times that.
+      EXPECT_NEAR(force_with(act, setting, true), alone, 1e-4 * std::abs(alone)) << setting << act;
+    }
   }
 }
 

@@ -194,7 +194,7 @@ TEST_F(Mistake, PointsGivenTwice) {
 }
 
 // Neighbors by quadratic correspondence whose faces have other corners: squares halved along crossed diagonals (four
-// triangles at each of the 224 squares inside), or not halved on one side.
+// triangles at each of the 224 squares inside), or not halved on one side, or beside four small ones.
 TEST_F(Mistake, FacesOfNeighborsThatDoNotMatch) {
   const Lattice lattice;  // 4 × 4 × 6 cubes
   const io::Mesh cubes = lattice.mesh();
@@ -204,10 +204,20 @@ TEST_F(Mistake, FacesOfNeighborsThatDoNotMatch) {
   lower.nodes.resize(8 * 48);
   mixed = in_tetrahedra(mixed);
   mixed.blocks.push_back({"plate", "HEX8", upper, {}, {}});
+  io::Mesh hanging = cubes;  // under cubes half as large
+  io::Mesh::Block small{"plate", "HEX8", Lattice{.nx = 8, .ny = 8, .nz = 4}.mesh().blocks[0].nodes, {}, {}};
+  const auto level = static_cast<int>(cubes.nodes.size()) - 25, above = static_cast<int>(cubes.nodes.size());
+  for (int n = 0; n < 9 * 9 * 5; ++n) hanging.nodes.emplace_back(5e-4 * Vector(n % 9, n / 9 % 9, 12 + n / 81));
+  for (int& node : small.nodes) {
+    const int x = node % 9, y = node / 9;
+    node = y < 9 && x % 2 == 0 && y % 2 == 0 ? level + y / 2 * 5 + x / 2 : above + node;
+  }
+  hanging.blocks.push_back(small);
   run_on_root(world, [&] {
     io::write_mesh(folder / "five.g", in_tetrahedra(cubes, at_corners));
     io::write_mesh(folder / "six.g", in_tetrahedra(cubes));
     io::write_mesh(folder / "mixed.g", mixed);
+    io::write_mesh(folder / "hanging.g", hanging);
   });
   Parts parts = right_parts();
   parts.times = key("Final Time", "1e-7");
@@ -225,6 +235,10 @@ TEST_F(Mistake, FacesOfNeighborsThatDoNotMatch) {
   expect_error(of("mixed.g", "bar plate"),
                {"32 faces of elements of block 'bar'", "16 faces of elements of block 'plate'",
                 "other corners of block 'bar'", "expected a mesh in which neighbors have a face in common"});
+  expect_error(of("hanging.g", "bar plate"),
+               {"16 faces of elements of block 'bar', the first of element 81, meet faces with other corners of block "
+                "'plate'",
+                "1 problem"});
 }
 
 // Coincident nodes of one body, between which bonds would be, are found; the faces of two bodies may touch.

@@ -633,5 +633,23 @@ TEST(Monitor, ABodyThatHasJustBeenStruckIsInBalance) {
   }
 }
 
+// A soft body whose points move against their neighbors, beside one that stores much more.
+TEST(Monitor, TellsOfSpringsThatHoldMuchOfOneBody) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 6, 6, 6, 1e-3) + cubes(2, {0.02, 0, 0}, 6, 6, 6, 1e-3));
+  Parts parts = thrown_block("");
+  parts.materials += section("lead", key("Material Model", "Elastic Plastic Correspondence") + key("Density", "8930") +
+                                         key("Young's Modulus", "117e9") + key("Poisson's Ratio", "0.35") +
+                                         key("Yield Stress", "1e8"));
+  parts.blocks = changed(parts.blocks, key("Block Names", "block_1") + key("Material", "copper"),
+                         key("Block Names", "block_1") + key("Material", "lead"));
+  parts.conditions = along("noise", "Initial Velocity", "block_1", "z", "20*sin(3141.59265*x)") +
+                     along("pull", "Initial Velocity", "block_2", "z", "2e4*z");
+  parts.times = key("Final Time", "2e-6");
+  const std::string said = outcome(folder, parts).said;
+  if (folder.world.rank() == 0)
+    expect_words(said, {"the springs of the stabilization hold ", " % of what the body of block block_1 "});
+}
+
 }  // namespace
 }  // namespace strut::regression

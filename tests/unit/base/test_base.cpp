@@ -7,6 +7,8 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <tuple>
+#include <vector>
 
 #include "base/build_facts.hpp"
 #include "base/deduplicated.hpp"
@@ -14,6 +16,7 @@
 #include "base/math/function.hpp"
 #include "base/math/table_files.hpp"
 #include "base/math/tensors.hpp"
+#include "base/math/time_integral.hpp"
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
 #include "base/parallel/launch.hpp"
@@ -184,6 +187,26 @@ TEST(Function, KnowsWhetherItDependsOnThePlace) {
   }
   for (const char* text : {"3", "exp(-t)", "value = t"})
     EXPECT_FALSE(Function::parse(text).depends_on_position()) << text;
+}
+
+// Pulses and jumps that equal parts miss or meet at the same phase; times that the text names by a product or below 0.
+TEST(TimeIntegral, MissesNoPulse) {
+  const double root_of_pi = std::sqrt(std::acos(-1));
+  const std::vector<std::tuple<const char*, double, double>> cases{
+      {"exp(-((1000*t - 334)^2))", 0, 1e-3 * root_of_pi},
+      {"exp(-(((t - 0.334)/1e-6)^2))", 0, 1e-6 * root_of_pi},
+      {"abs(1e6*t - 334e3) < 1", 0, 2e-6},
+      {"value = 0; if (t > 0.4) { if (t < 0.4001) { value = 1; } }", 0, 1e-4},
+      {"3*t > 1", 0, 2. / 3},
+      {"t < -0.3", -1, 0.7},
+      {"sin(201.06192982974676*t)^2", 0, 0.5},
+      {"max(t, 0.3)", 0, 0.545},
+      {"1/sqrt(t)", 0, 2},
+      {"table(2*t, 0, 0, 0.5, 1, 1, 0)", 0, 0.25}};
+  for (const auto& [text, from, integral] : cases) {
+    const double found = time_integral(Function::parse(text), Vector::Zero(), from, from < 0 ? 0 : 1);
+    EXPECT_NEAR(found, integral, 1e-8 * integral) << text << ": a hundred parts that are each known to 1e-10";
+  }
 }
 
 // expressions.txt: "value | text" or "error | text"; the tools in Python are tested by the same lines.

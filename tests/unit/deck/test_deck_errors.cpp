@@ -541,10 +541,11 @@ TEST(DeckErrors, WhatAParameterContainsAndUnknownAttributesAreRefused) {
 // Some editors write a byte order mark, and Teuchos itself empty validators and what it knows of a key.
 TEST(DeckErrors, HarmlessXmlIsAccepted) {
   const DeckFolder folder;
-  EXPECT_EQ(folder.error(changed(small_deck, R"(type="double" value="8960")",
-                                 R"(type="double" value="8960" docString="1 &lt; 2 = 'two' &quot;a&quot; b = c&gt;" id="7")"
-                                 R"( isUsed="true" isDefault="false")")),
-            "");
+  EXPECT_EQ(
+      folder.error(changed(small_deck, R"(type="double" value="8960")",
+                           R"(type="double" value="8960" docString="1 &lt; 2 = 'two' &quot;a&quot; b = c&gt;" id="7")"
+                           R"( isUsed="true" isDefault="false")")),
+      "");
   EXPECT_EQ(folder.error("\xef\xbb\xbf" + small_deck), "");
   EXPECT_EQ(folder.error(changed(small_deck, "<ParameterList>", "<ParameterList name=\"ANONYMOUS\"><Validators/>")),
             "");

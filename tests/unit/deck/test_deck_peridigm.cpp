@@ -657,7 +657,7 @@ TEST(DeckOfPeridigm, PlainValuesOfYamlMayCompare) {
   Problems problems;
   const auto sets = parse_yaml(
       "Sets:\n  a: z > 5e-3  # a > b\n  b: (z >= 1) || (x < 2)\n"
-      "  c: {Young's: x > 1, e: \"p: q > r\"}\n"
+      "  c: {Young's: x > 1, e: \"p: q > r\"}\n  d: [x > 1, 'y', z <= 2]\n  g:\n    - x > -1  # a\n    - \"y\"\n"
       "Text: |\n  f: g > h\nOther: >\n  i: j > k\nLast: table(t, 'a.csv') > 1\n",
       problems);
   ASSERT_TRUE(sets && problems.empty()) << problems.text("");
@@ -669,13 +669,10 @@ TEST(DeckOfPeridigm, PlainValuesOfYamlMayCompare) {
   keep(sets->lists.at(0));
   keep(sets->lists.at(0).lists.at(0));
   EXPECT_FALSE(parse_yaml("Sets:\n  a: z > 1: 2\n", problems)) << "as in YAML";
-  const std::map<std::string, std::string> expected = {{"a", "z > 5e-3"},
-                                                       {"b", "(z >= 1) || (x < 2)"},
-                                                       {"Young's", "x > 1"},
-                                                       {"e", "p: q > r"},
-                                                       {"Text", "f: g > h"},
-                                                       {"Other", "i: j > k"},
-                                                       {"Last", "table(t, 'a.csv') > 1"}};
+  const std::map<std::string, std::string> expected = {
+      {"a", "z > 5e-3"},    {"b", "(z >= 1) || (x < 2)"}, {"d", "{x > 1, y, z <= 2}"},
+      {"g", "{x > -1, y}"}, {"Young's", "x > 1"},         {"e", "p: q > r"},
+      {"Text", "f: g > h"}, {"Other", "i: j > k"},        {"Last", "table(t, 'a.csv') > 1"}};
   EXPECT_EQ(values, expected);
 }
 

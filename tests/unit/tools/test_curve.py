@@ -324,7 +324,8 @@ class Runs(InFolder):
 
     def test_the_density_of_several_blocks_is_their_mass_over_the_volume(self):
         volumes = {"low": np.full(27, 1e-9), "high": np.full(9, 1e-9), "empty": np.zeros(0)}
-        result = SimpleNamespace(path="o.e", blocks=[SimpleNamespace(name=n, nodes=np.arange(len(v)), volumes=v) for n, v in volumes.items()])
+        blocks = [SimpleNamespace(name=n, nodes=np.arange(len(v)), volumes=v) for n, v in volumes.items()]
+        result = SimpleNamespace(path="o.e", blocks=blocks, blocks_of=lambda names: [b for b in blocks if not names or b.name in names])
         section = '<ParameterList name="one"><Parameter name="Block Names" type="string" value="%s"/>'
         material = '<ParameterList name="stuff">\n    <Parameter name="Density" type="double" value="%s"/></ParameterList>'
         other = section.replace("one", "two") % "high" + '<Parameter name="Material" type="string" value="heavy"/></ParameterList>'

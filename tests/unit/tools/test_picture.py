@@ -271,6 +271,7 @@ class Pictures(InFolder):
         self.assertIn("it has Displacement, Equivalent_Plastic_Strain", self.error("bar.e", "a.png", "--variable", "Q"))
         self.assertIn("nowhere.e does not exist", self.error("nowhere.e", "a.png"))
         self.assertIn("no block 'plate'; it has bar", self.error("bar.e", "a.png", "--blocks", "plate"))
+        self.assertIn("no block 'bat' (did you mean 'bar'?); it has bar", self.error("bar.e", "a.png", "--blocks", "bat"))
         self.assertIn("times from 0 s to 0.001 s; found 5", self.error("bar.e", "a.png", "--times", 5))
         self.assertIn("--clip takes", self.error("bar.e", "a.png", "--clip", "q", 0.5))
         self.assertIn("--hide takes", self.error("bar.e", "a.png", "--hide", "Damage", "much"))

@@ -1087,6 +1087,13 @@ class Tetrahedra(ToolTest):
         np.testing.assert_array_equal(mesh.sets["side"], [0, 1, 3])
         np.testing.assert_array_equal(mesh.sets["foot"], [0, 1, 2, 3])
 
+    def test_groups_of_gmsh_that_meshio_passes_over(self):
+        for old, new, told in (("2 2 2 1 2 0", "2 2 2 2 2 9 0", "volume 2 is also in the physical group 9"),
+                               ("1 1 0 1 5 0", "1 1 0 2 5 8 0", "surface 1 is also in the physical group 8")):
+            self.refused("tetrahedra", told + ".*expected format 4.1", self.write("a.msh", GMSH_4.replace(old, new)))
+        old = GMSH_4.replace("4.1 0 8", "4.0 0 8").replace("1 1 1 1 1 0", "1 1 1 2 1 2 0")
+        self.refused("tetrahedra", "volume 1 is also in the physical group 2", self.write("a.msh", old))
+
     def test_numbers_of_other_names_are_told_and_may_be_chosen(self):
         self.mesh(cell_data=self.groups("material")).write(self.path("a.vtu"))
         said, mesh = self.works("tetrahedra", self.path("a.vtu"))

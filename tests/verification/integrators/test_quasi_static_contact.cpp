@@ -20,7 +20,7 @@ struct Probe {
   ToolContact contact;
   Field forces;
 
-  Probe(const RigidTool& tool, const Body& body) : contact({tool}, body, {body.domain, {}}) {}
+  Probe(const RigidTool& tool, const Body& body) : contact({tool}, body) {}
   const Field& at(Body& body, const Field& places) {
     for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() = places[i].array();
     forces.assign(body.owned(), Vector::Zero());

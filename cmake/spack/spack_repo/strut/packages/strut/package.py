@@ -10,7 +10,7 @@ class Strut(CMakePackage):
 
     version("main")  # of a working copy
 
-    variant("tools", default=True, description="strut-mesh, strut-compare and strut-point")
+    variant("tools", default=True, description="strut-mesh, strut-point and strut-evaluate")
 
     depends_on("c", type="build")
     depends_on("cxx", type="build")
