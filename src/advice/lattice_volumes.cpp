@@ -1,5 +1,5 @@
-// Volumes that a file states for points without elements (text, spheres), beside the lattice that the points stand on:
-// nothing else ties the two, and mass and stiffness follow the volumes.
+// Volumes that a file states for points without elements (text, spheres), or those of nodes, beside the lattice that
+// the points stand on: nothing else ties the two, and mass and stiffness follow the volumes.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,9 +16,9 @@ constexpr double alike = 0.01;  // relative difference of volumes and distances 
 
 bool are_alike(double a, double b) { return std::abs(a - b) <= alike * std::max(a, b); }
 
-// A text mesh has no shared nodes, and a sphere has none.
+// A text mesh has no shared nodes, and a sphere has none. Nodes have more than their lattice if elements overlap.
 bool is_bare(const PointCloud& cloud, int i) {
-  return cloud.at == PointsAt::elements && (cloud.shared_nodes.empty() || cloud.shared_nodes[i].empty());
+  return cloud.at == PointsAt::nodes || cloud.shared_nodes.empty() || cloud.shared_nodes[i].empty();
 }
 
 // The axis along which a bond runs; -1: none.
@@ -65,10 +65,10 @@ LatticeCell cell_around(const Domain& domain, int i) {
 }
 
 // Points at a surface may have less: a half for each face, if they stand for nodes.
-bool is_off(const LatticeCell& cell, double volume) {
+bool is_off(const LatticeCell& cell, double volume, PointsAt at) {
   constexpr double worth_saying = 0.1, least_at_surfaces = 0.1;
   if (!(cell.volume > 0)) return false;
-  const double least = cell.is_inside ? 1 - worth_saying : least_at_surfaces;
+  const double least = at == PointsAt::nodes ? 0 : cell.is_inside ? 1 - worth_saying : least_at_surfaces;
   return volume > (1 + worth_saying) * cell.volume || volume < least * cell.volume;
 }
 
@@ -83,7 +83,7 @@ std::string volumes_off_lattices(const Situation& situation) {
   for (int i = 0; i < body.owned(); ++i) {
     if (!is_bare(domain.cloud, i) || body.has_lost_bonds(i)) continue;
     const LatticeCell cell = cell_around(domain, i);
-    if (!is_off(cell, domain.volume(i))) continue;
+    if (!is_off(cell, domain.volume(i), domain.cloud.at)) continue;
     points.push_back(i);
     const double ratio = std::max(domain.volume(i) / cell.volume, cell.volume / domain.volume(i));
     if (ratio > most) most = ratio, volume = domain.volume(i), expected = cell.volume;
@@ -96,8 +96,8 @@ std::string volumes_off_lattices(const Situation& situation) {
   std::ostringstream text;
   text << "WARNING: the volumes of " << found.count << " points, one of them at " << place_text(found.one)
        << ", do not fit the lattice that the points are on: the farthest off has " << volume
-       << " m³, and its spacings make " << expected
-       << " m³. Mass and stiffness follow the volumes; expected the product of the spacings\n";
+       << " m³, and its spacings make " << expected << " m³. Mass and stiffness follow the volumes; expected "
+       << (domain.cloud.at == PointsAt::nodes ? "each element once" : "the product of the spacings") << "\n";
   return text.str();
 }
 

@@ -27,7 +27,8 @@ bool reaches_horizon(const Domain& domain, int i, const Vector& direction) {
     ahead = std::max(ahead, along), behind = std::max(behind, -along);
     if (std::abs(along) > narrow * xi.norm()) layer = std::min(layer, std::abs(along));
   });
-  return std::isfinite(layer) && std::min(ahead, behind) > domain.horizon(i) - (1 - 1e-6) * layer;
+  constexpr double round_off = 1e-3;  // of a layer, for coordinates in single precision
+  return std::isfinite(layer) && std::min(ahead, behind) > domain.horizon(i) - (1 - round_off) * layer;
 }
 
 // True if a neighbor has less than a whole cell, as nodes at a surface have.

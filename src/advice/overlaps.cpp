@@ -9,6 +9,7 @@
 #include "advice/mesh_nodes.hpp"
 #include "contact/interpenetration.hpp"
 #include "setup/found_points.hpp"
+#include "topology/coincident.hpp"
 #include "topology/nearby_ranks.hpp"
 #include "topology/neighbors/cell_grid.hpp"
 #include "topology/pieces.hpp"
@@ -99,7 +100,6 @@ std::string crowds(const Body& body, std::int64_t pieces) {
   if (has_pieces(domain, pieces)) within = within_horizons(domain);
   std::vector<int> points;
   for (int i = 0; i < body.owned(); ++i) {
-    if (domain.families.lattice(i)) continue;
     if (is_crowded(domain, i, within.empty() ? neighbors_within(domain, i) : within[i])) points.push_back(i);
   }
   const FoundPoints found = found_points(body, {points})[0];
@@ -256,9 +256,46 @@ AtOtherParts at_other_parts(const Domain& domain, const deck::Deck& deck) {
   return found;
 }
 
-std::string parts_warning(const Body& body, const deck::Deck& deck, bool crowds_reported) {
+// Collective. Points at nodes where others of their body are, with which no bonds connect them.
+std::vector<int> unmerged_nodes(const Domain& domain, const deck::Deck& deck, std::int64_t pieces) {
+  if (domain.cloud.at != PointsAt::nodes || !has_pieces(domain, pieces)) return {};
+  const std::vector<std::int64_t> piece = piece_ids(domain);
+  std::vector<Element> nodes;
+  Eigen::AlignedBox3d mine;
+  double near = std::numeric_limits<double>::min();
+  for (int i = 0; i < domain.owned; ++i) {
+    const Vector X = domain.reference(i);
+    mine.extend(X), near = std::max(near, at_one_place * domain.cloud.spacings[i]);
+    nodes.push_back({.place = {X[0], X[1], X[2]},
+                     .edge = domain.cloud.spacings[i],
+                     .block = domain.cloud.blocks[i],
+                     .body = domain.body_of(i),
+                     .piece = piece[i]});
+  }
+  near = domain.communicator.max(near);
+  add_nearby(nodes, mine, near, domain.communicator);
+  const std::vector<Vector> places = places_of(nodes);
+  const std::vector<std::string>& names = domain.cloud.block_names;
+  const CellGrid grid(places, near);
+  std::vector<int> points;
+  for (int i = 0; i < domain.owned; ++i) {
+    bool is_unmerged = false;
+    grid.visit_near(places[i], [&](int j, const Vector& y) {
+      const Element &one = nodes[i], &other = nodes[j];
+      is_unmerged = is_unmerged || (other.body == one.body && other.piece != one.piece &&
+                                    (y - places[i]).norm() < at_one_place * one.edge &&
+                                    !meet(deck, names[one.block], names[other.block]));
+    });
+    if (is_unmerged) points.push_back(i);
+  }
+  return points;
+}
+
+std::string parts_warning(const Body& body, const deck::Deck& deck, std::int64_t pieces, bool crowds_reported) {
   const AtOtherParts found = at_other_parts(body.domain, deck);
-  const std::vector<FoundPoints> points = found_points(body, {found.inside, found.beside});
+  const std::vector<int> unmerged = unmerged_nodes(body.domain, deck, pieces);
+  const std::vector<FoundPoints> points =
+      found_points(body, {found.inside, body.domain.cloud.at == PointsAt::nodes ? unmerged : found.beside});
   const FoundPoints &inside = points[0], &beside = points[1];
   std::ostringstream text;
   if (inside.count > 0 && !crowds_reported) {
@@ -267,11 +304,12 @@ std::string parts_warning(const Body& body, const deck::Deck& deck, bool crowds_
          << " of an element's edge to others of their body with which they share no node: elements that "
          << "overlap, or are given twice? Mass and stiffness count twice there\n";
   } else if (beside.count > 0 && inside.count == 0) {
-    text
-        << "WARNING: " << beside.count << " points, one of them at " << place_text(beside.one)
-        << ", lie beside others of their body with which they share no node, and nothing connects the two, since bonds "
-           "run through material only: nodes at one place that are not merged? Expected one node at each place, Bonds "
-           "Across Voids true, or, for bodies that meet, Separate Body true\n";
+    text << "WARNING: " << beside.count << " points, one of them at " << place_text(beside.one)
+         << ", lie beside others of their body with which they share "
+         << (body.domain.cloud.at == PointsAt::nodes ? "no element" : "no node")
+         << ", and nothing connects the two, since bonds "
+            "run through material only: nodes at one place that are not merged? Expected one node at each place, Bonds "
+            "Across Voids true, or, for bodies that meet, Separate Body true\n";
   }
   return text.str();
 }
@@ -285,7 +323,7 @@ std::string overlaps(const Situation& situation) {
   // Cells of a grid do not overlap, and boxes of them hold more than the horizon.
   if (situation.deck.discretization.type != deck::MeshType::grid) {
     const std::string crowded_points = crowds(body, situation.scene.pieces);
-    text << crowded_points << parts_warning(body, situation.deck, !crowded_points.empty());
+    text << crowded_points << parts_warning(body, situation.deck, situation.scene.pieces, !crowded_points.empty());
   }
   for (const auto& [first, second, points] : contact::overlapping_blocks(domain)) {
     const FoundPoints found = found_points(body, {points})[0];

@@ -53,7 +53,8 @@ std::string name_of(std::size_t k, std::size_t drawn, const Ball& ball, const de
                    : "the crack of " + discretization.shells[k - drawn].filename().string();
 }
 
-std::string misplaced_cracks(const deck::Deck& deck, const Body& body) {
+std::string misplaced_cracks(const deck::Deck& deck, const Scene& scene) {
+  const Body& body = scene.body;
   const Domain& domain = body.domain;
   const std::vector<Crack> cracks = cracks_of(deck, domain.communicator);
   const std::size_t drawn = cracks.size() - deck.discretization.shells.size();
@@ -65,8 +66,12 @@ std::string misplaced_cracks(const deck::Deck& deck, const Body& body) {
     for (const auto& [i, other] : domain.separated) {
       if ((beside.empty() || beside.back() != i) && may_part(ball, domain, i)) beside.push_back(i);
     }
-    if (!domain.communicator.any(!beside.empty()))
-      text << name << " cuts no bond; are its lengths in m, and is it in a body?\n";
+    if (!domain.communicator.any(!beside.empty())) {
+      text << name << " cuts no bond";
+      if (scene.dropped.points > 0)
+        text << " of the points that are left (" << scene.dropped.points << " were dropped)";
+      text << "; are its lengths in m, and is it in a body?\n";
+    }
     const FoundPoints found = found_points(body, {points_on(cracks[k], beside, domain)})[0];
     if (found.count == 0) continue;
     text << name << " runs through " << found.count << " points, one at " << place_text(found.one)
@@ -105,7 +110,7 @@ std::string without_effect(const Situation& situation) {
   return unnamed(deck.materials, "Materials", "no section of Blocks names it", is_of_block) +
          unnamed(deck.damage_models, "Damage Models", "no section of Blocks names it as its Damage Model", has_damage) +
          unnamed(deck.contact_models, "Contact > Models", "no interaction names it", is_of_contact) +
-         misplaced_cracks(deck, situation.scene.body) + sets_of_all_points(deck, situation.scene.body.domain);
+         misplaced_cracks(deck, situation.scene) + sets_of_all_points(deck, situation.scene.body.domain);
 }
 
 }  // namespace strut

@@ -11,7 +11,8 @@ SymmetryPlane SymmetryPlane::on(std::vector<int> all, int index, const Body& bod
   std::erase_if(all, [&](int i) {
     const int of_point = domain.body_of(i);
     return std::any_of(domain.mirrors.begin(), domain.mirrors.end(), [&](const Mirror& mirror) {
-      return mirror.number == index && mirror.body == of_point && !mirror.holds(domain.reference(i), domain.horizon(i));
+      return mirror.number == index && mirror.body == of_point &&
+             !mirror.holds(domain.reference(i), domain.cloud.spacings[i]);
     });
   });
   SymmetryPlane plane = *this;

@@ -98,7 +98,7 @@ double separation_of_cells(const PulledLattice& lattice) {
 
 std::vector<LatticeBond> family_of(const PulledLattice& lattice) {
   const double h = lattice.spacing;
-  const int reach = static_cast<int>(lattice.horizon / h * (1 + 1e-9));
+  const int reach = static_cast<int>(lattice.horizon / h * with_round_off);
   std::vector<LatticeBond> family;
   bonds::with_influence(lattice.influence, [&]<class Weight>(Weight) {
     for (int x = -reach; x <= reach; ++x) {

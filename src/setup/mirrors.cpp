@@ -28,7 +28,9 @@ struct Place {
   double least = HUGE_VAL, most = 0, most_m = 0;  // for those in the set; most_m in m
   double off = 0;                                 // number of those in the set that are off the plane
   double cut = 0;                                 // number of partial cells that count the plane as surface
-  double free = 0;                                // number at the plane, but not in the set
+  double apart = 0;  // number of those in the set whose bonds need a node on the plane, but that have none
+  double gap = 0;    // m, the largest between the plane and such a whole element
+  double free = 0;   // number at the plane, but not in the set
 };
 
 bool is_in(const PointCloud& cloud, const std::string& set, std::size_t i) {
@@ -46,13 +48,15 @@ class PlaneSearch {
   Place place() const {
     Place found;
     over_body([&](std::size_t i) { classify(i, found); });
-    double sums[] = {found.points, found.in_set, found.before, found.behind, found.distances, found.off, found.cut};
-    double most[] = {-found.least, found.most, found.most_m};
+    double sums[] = {found.points,    found.in_set, found.before, found.behind,
+                     found.distances, found.off,    found.cut,    found.apart};
+    double most[] = {-found.least, found.most, found.most_m, found.gap};
     communicator_.sum(sums), communicator_.max(most);
-    found = {sums[0], sums[1], sums[2], sums[3], sums[4], -most[0], most[1], most[2], sums[5], sums[6]};
+    found = {sums[0], sums[1], sums[2], sums[3], sums[4], -most[0],
+             most[1], most[2], sums[5], sums[6], sums[7], most[3]};
     const double mean = found.in_set > 0 ? found.distances / found.in_set : 0;
     double free = 0;
-    over_body([&](std::size_t i) { free += !is_in(cloud_, set_, i) && distance(i) <= mean + 1e-6 ? 1 : 0; });
+    over_body([&](std::size_t i) { free += !is_in(cloud_, set_, i) && distance(i) <= mean + on_plane ? 1 : 0; });
     found.free = communicator_.sum(free);
     return found;
   }
@@ -83,8 +87,22 @@ class PlaneSearch {
     found.least = std::min(found.least, here), found.most = std::max(found.most, here);
     found.most_m = std::max(found.most_m, std::abs(signed_distance));
     if (cloud_.shapes.empty() || cloud_.at == PointsAt::nodes) return;
+    if (here < farthest_of_nearest) look_for_nodes(i, found);
     const Vector outward = signed_distance > 0 ? Vector(-plane_.normal) : plane_.normal;
     found.cut += outward.dot(cloud_.shapes[i].surface) > 0.1 * std::pow(cloud_.spacings[i], 2) ? 1 : 0;
+  }
+  // Partly filled elements may be cut by the plane, if their bonds need no common nodes.
+  void look_for_nodes(std::size_t i, Place& found) const {
+    const BlockBonds& block = bonds_[cloud_.blocks[i]];
+    const double whole = std::pow(cloud_.spacings[i], 3);
+    const bool is_whole = std::abs(cloud_.volumes[i] - whole) < 1e-6 * whole;
+    const auto is_on = [&](std::int64_t node) { return (node >> (first_plane_bit + plane_.bit) & 1) != 0; };
+    const std::vector<std::int64_t>& nodes = cloud_.shared_nodes[i];
+    if (!(is_whole || block.visible_only || block.touching) || nodes.empty() || std::ranges::any_of(nodes, is_on))
+      return;
+    ++found.apart;
+    const double reach = reach_of_cell(cloud_, cloud_.volumes[i], static_cast<int>(i), plane_.normal);
+    if (is_whole) found.gap = std::max(found.gap, std::abs(std::abs(plane_.distance(cloud_.positions[i])) - reach));
   }
 
   const PointCloud& cloud_;
@@ -107,11 +125,19 @@ std::string objection(const Place& place, PointsAt at, bool whole_cells) {
     text << "all points of a body are in the set (plane strain)";
   } else if (place.before > 0 && place.behind > 0) {
     text << "the body of its points lies on both sides of the plane";
-  } else if (at_nodes ? place.most > 1e-6 : place.most > farthest || place.least > farthest_of_nearest) {
+  } else if (at_nodes ? place.off > 0 : place.most > farthest || place.least > farthest_of_nearest) {
     text << "points of the set are up to " << place.most_m << " m away from the plane; expected "
          << (at_nodes ? "nodes on it" : "elements with a face, edge or corner on it");
   } else if (!at_nodes && place.least < nearest) {
     text << "the plane runs through elements of the set; expected faces of elements on it";
+  } else if (place.gap > 0) {
+    text << "the plane is about " << place.gap << " m off the faces of " << place.apart
+         << " elements of the set, which have no node on it; expected a plane through nodes, to " << on_plane
+         << " of an element's edge";
+  } else if (place.apart > 0) {
+    text << place.apart
+         << " partly filled elements of the set have no node on the plane, and their bonds run by common nodes only; "
+            "expected a plane through nodes of the mesh";
   } else if (place.free > 0) {
     text << place.free << " points at the plane are not in the set";
   } else if (at_nodes && whole_cells) {
@@ -185,7 +211,8 @@ Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communica
     for (const int body : bodies) {
       plane.body = body;
       const std::string& set = deck.conditions[plane.number].node_set;
-      const Place place = PlaneSearch(cloud, plane, set, bonds, communicator).place();
+      Place place = PlaneSearch(cloud, plane, set, bonds, communicator).place();
+      if (deck.discretization.grid.boxes) place.apart = place.gap = 0;  // boxes are no nodes, and are refused below
       if (place.in_set == 0 || holds_the_middle(place)) continue;
       const bool is_quadratic = is_quadratic_body(deck, cloud, bonds, body);
       const std::string text = objection(place, cloud.at, is_quadratic);

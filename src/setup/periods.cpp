@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "conditions/prototype.hpp"
 #include "setup/blocks.hpp"
 #include "topology/bounding_box.hpp"
@@ -130,6 +131,61 @@ std::vector<Period> periods(const deck::Deck& deck, const PointCloud& cloud, con
   return all;
 }
 
+namespace {
+
+// Elements at sides of a period: their number, how many have no neighbor behind the side, and how many have one, but a
+// surface that faces it.
+struct AtSides {
+  double count = 0, alone = 0, facing = 0;
+};
+
+// Points without nodes: how many bonds cross the sides, how many points are nearest to a neighbor straight behind the
+// upper side, and how many of these are at another distance from it than from the one straight before it, where volumes
+// are as alike as these distances.
+struct Columns {
+  double crossing = 0, count = 0, off = 0;
+  double gap = 0, layer = 0;  // m, both distances where they differ most
+};
+
+Columns columns_at(const Domain& domain, const std::vector<Vector>& shifts, int axis) {
+  constexpr double straight = 1e-2, most = 0.05;
+  Columns found;
+  for (int i = 0; i < domain.owned; ++i) {
+    if (!domain.cloud.shared_nodes.empty() && !domain.cloud.shared_nodes[i].empty()) continue;
+    double gap = HUGE_VAL, layer = HUGE_VAL, behind = 0, before = 0;  // m and m³
+    domain.families.for_each(i, [&](int j) {
+      const Vector xi = domain.reference(j) - domain.reference(i);
+      found.crossing += shifts[j][axis] != 0 ? 1 : 0;
+      if (xi.norm() - std::abs(xi[axis]) > straight * straight * xi.norm()) return;
+      if (shifts[j][axis] > 0 && xi[axis] < gap) gap = xi[axis], behind = domain.volume(j);
+      if (shifts[j][axis] == 0 && xi[axis] < 0 && -xi[axis] < layer) layer = -xi[axis], before = domain.volume(j);
+    });
+    if (!std::isfinite(gap + layer)) continue;
+    const double expected = layer * (domain.volume(i) + behind) / (domain.volume(i) + before);
+    ++found.count, found.off += std::abs(gap - expected) > most * expected ? 1 : 0;
+    if (std::abs(gap - layer) > std::abs(found.gap - found.layer)) found.gap = gap, found.layer = layer;
+  }
+  return found;
+}
+
+// Collective. Sides that do not continue a mesh without nodes.
+std::string gaps(const std::string& path, const Domain& domain, const std::vector<Vector>& shifts, int axis) {
+  Columns found = columns_at(domain, shifts, axis);
+  const Communicator& ranks = domain.communicator;
+  const double apart = std::abs(found.gap - found.layer);
+  const bool is_here = ranks.first_rank(apart == ranks.max(apart)) == ranks.rank();
+  double most[] = {is_here ? found.gap : 0, is_here ? found.layer : 0},
+         sums[] = {found.crossing, found.count, found.off};
+  ranks.max(most), ranks.sum(sums);
+  if (sums[0] == 0) return "WARNING: " + path + ": no bond crosses its sides; expected sides at the ends of the mesh\n";
+  if (!(sums[2] > 0.5 * sums[1])) return "";
+  return text_of("WARNING: ", path, ": ", sums[2], " points are up to ", most[0],
+                 " m away from the one behind the side, ", "and ", most[1],
+                 " m from the one before it; expected Upper − Lower as large as the mesh with its cells\n");
+}
+
+}  // namespace
+
 std::string open_sides(const deck::Deck& deck, const Domain& domain) {
   std::string warnings;
   if (domain.periods.empty()) return warnings;
@@ -140,40 +196,45 @@ std::string open_sides(const deck::Deck& deck, const Domain& domain) {
     if (Images::image(other) > 0) is_cut[i] = 1;
   }
   const bool any_quadratic = std::ranges::any_of(deck.materials, is_quadratic);
+  const auto nodes_of = [&](int i) {
+    return domain.cloud.shared_nodes.empty() ? 0 : domain.cloud.shared_nodes[i].size();
+  };
+  double with_nodes = 0;
+  for (int i = 0; i < domain.owned; ++i) with_nodes += nodes_of(i) > 0 ? 1 : 0;
+  with_nodes = domain.communicator.sum(with_nodes);
   for (const Period& period : domain.periods) {
-    // Elements with a node on the upper side, those of them without a neighbor above, all that have nodes; those with a
-    // neighbor above whose surface faces it.
-    double counts[] = {0, 0, 0, 0};
-    for (int i = 0; i < domain.owned && !domain.cloud.shared_nodes.empty(); ++i) {
-      const auto is_on_side = [&](std::int64_t node) { return (node >> (first_plane_bit + period.axis) & 1) != 0; };
-      counts[2] += domain.cloud.shared_nodes[i].empty() ? 0 : 1;
-      if (std::ranges::none_of(domain.cloud.shared_nodes[i], is_on_side)) continue;
-      bool meets = false;
-      domain.families.for_each(i, [&](int j) { meets = meets || shifts[j][period.axis] > 0; });
-      ++counts[0], counts[1] += meets || is_cut[i] != 0 ? 0 : 1;
-      counts[3] += meets && surface_along(domain.cloud, period.axis, i) > 0.1 ? 1 : 0;
+    const std::string path = path_of(deck, period.number);
+    if (with_nodes == 0) warnings += gaps(path, domain, shifts, period.axis);
+    AtSides all;
+    for (const bool is_upper : {true, false}) {
+      const int bit = first_plane_bit + period.axis + (is_upper ? 0 : lower_side);
+      const double outward = is_upper ? 1 : -1;
+      double counts[] = {0, 0, 0};
+      for (int i = 0; i < domain.owned && with_nodes > 0; ++i) {
+        const auto is_on_side = [&](std::int64_t node) { return (node >> bit & 1) != 0; };
+        if (nodes_of(i) == 0 || std::ranges::none_of(domain.cloud.shared_nodes[i], is_on_side)) continue;
+        bool meets = false;
+        domain.families.for_each(i, [&](int j) { meets = meets || outward * shifts[j][period.axis] > 0; });
+        ++counts[0], counts[1] += meets || is_cut[i] != 0 ? 0 : 1;
+        counts[2] += meets && outward * surface_along(domain.cloud, period.axis, i) > 0.1 ? 1 : 0;
+      }
+      domain.communicator.sum(counts);
+      if (with_nodes > 0 && counts[0] == 0) {
+        throw Error(path + ": no element has a node on the " + (is_upper ? "upper" : "lower") +
+                    " side, which cuts elements or lies beyond the mesh; expected sides at the faces of the mesh");
+      }
+      all.count += counts[0], all.alone += counts[1], all.facing += counts[2];
     }
-    domain.communicator.sum(counts);
-    if (counts[2] > 0 && counts[0] == 0) {
-      throw Error(
-          path_of(deck, period.number) +
-          ": no element has a node on the upper side, which cuts elements or lies beyond the mesh; expected sides "
-          "at the faces of the mesh");
+    if (any_quadratic && all.facing > 0.5 * (all.count - all.alone)) {  // a staircase has fewer
+      warnings +=
+          text_of("WARNING: ", path, ": ", all.facing, " of ", all.count,
+                  " partly filled elements at a side bring surfaces that face it, though the body goes on there: "
+                  "their mesh was not made to repeat; quadratic correspondence is less accurate in them\n");
     }
-    std::ostringstream text;
-    if (any_quadratic && counts[3] > 0.5 * (counts[0] - counts[1])) {  // a staircase has fewer
-      text << "WARNING: " << path_of(deck, period.number) << ": " << counts[3] << " of " << counts[0]
-           << " partly filled elements at the upper side bring surfaces that face it, though the body goes on there: "
-              "their mesh was not made to repeat; quadratic correspondence is less accurate in them\n";
-      warnings += text.str();
-      text.str("");
-    }
-    if (counts[1] == 0) continue;
-    text
-        << "WARNING: " << path_of(deck, period.number) << ": " << counts[1] << " of " << counts[0]
-        << " elements at the upper side have no neighbor behind it, and end there; expected a mesh whose faces at both "
-           "sides are alike\n";
-    warnings += text.str();
+    if (all.alone == 0) continue;
+    warnings += text_of("WARNING: ", path, ": ", all.alone, " of ", all.count,
+                        " elements at a side have no neighbor behind it, and end there; expected a mesh whose faces at "
+                        "both sides are alike\n");
   }
   return warnings;
 }

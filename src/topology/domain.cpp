@@ -105,7 +105,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   std::vector<BlockHorizons> blocks = block_horizons(cloud, own_horizons, bonds, communicator);
   double reach = std::numeric_limits<double>::min();  // for a rank without points
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    reach = std::max(reach, blocks[b].largest * (1 + 1e-9));
+    reach = std::max(reach, blocks[b].largest * with_round_off);
     blocks[b].smallest /= bonds[b].search_factor(), blocks[b].largest /= bonds[b].search_factor();
   }
   const int owned = static_cast<int>(cloud.size());

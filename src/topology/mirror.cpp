@@ -10,7 +10,7 @@ namespace strut {
 
 double Mirror::distance(const Vector& X) const { return normal.dot(X - on); }
 
-bool Mirror::holds(const Vector& X, double size) const { return std::abs(distance(X)) < 1e-6 * size; }
+bool Mirror::holds(const Vector& X, double spacing) const { return std::abs(distance(X)) < on_plane * spacing; }
 
 Reflection Reflection::by(const Mirror& mirror) {
   const Vector& n = mirror.normal;
@@ -74,17 +74,17 @@ std::int64_t number_at(const Vector& X, double period) {
 
 }  // namespace
 
-std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vector<Mirror>& planes, double size) {
+std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vector<Mirror>& planes, double spacing) {
   const bool repeats = std::ranges::any_of(planes, [](const Mirror& plane) { return plane.period > 0; });
   std::int64_t bits = 0;
   Vector lower = X;  // its image on lower sides
   double period = 0;
   for (const Mirror& plane : planes) {
-    if (!plane.holds(X, size)) continue;
+    if (!plane.holds(X, spacing)) continue;
     period = std::max(period, plane.period);
-    const bool is_upper = plane.period > 0 && plane.normal.sum() < 0;
-    if (is_upper) lower += plane.period * plane.normal;
-    if (!repeats || is_upper) bits |= std::int64_t{1} << (first_plane_bit + plane.bit);
+    const bool is_lower = plane.period > 0 && plane.normal.sum() > 0;
+    if (repeats) lower += ((is_lower ? 0 : plane.period) - plane.distance(X)) * plane.normal;
+    bits |= std::int64_t{1} << (first_plane_bit + plane.bit + (is_lower ? lower_side : 0));
   }
   return (period > 0 ? number_at(lower, period) : number) | bits;
 }

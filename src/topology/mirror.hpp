@@ -10,6 +10,10 @@
 
 namespace strut {
 
+// Nodes are on a plane from this near on, in spacings: so are coordinates in single precision, and those that a normal
+// of three digits misses by a little.
+constexpr double on_plane = 0.01;
+
 // A plane behind which a body continues as its mirror image.
 struct Mirror {
   Vector on = Vector::Zero(), normal = Vector::UnitX();  // m; of unit length
@@ -18,9 +22,8 @@ struct Mirror {
   int bit = 0;                                           // bit of `shared_nodes` for nodes on it (cloud.hpp)
   double period = 0;                                     // m, of a periodic side: to the other one; 0: a mirror
 
-  double distance(const Vector& X) const;  // m, negative behind the normal
-  // True if a point is on it, to round-off; `size`: its horizon or spacing, m.
-  bool holds(const Vector& X, double size) const;
+  double distance(const Vector& X) const;             // m, negative behind the normal
+  bool holds(const Vector& X, double spacing) const;  // true if a node is on it
 };
 
 // Two sides, normal to an axis, behind which all bodies go on as they are behind the other side.
@@ -32,8 +35,10 @@ struct Period {
 };
 
 // The number of a shared node (cloud.hpp) at X, with the bits of the mirrors that it lies on. On periodic sides, shared
-// nodes that are images of each other have one number; those on an upper side have its bit. `size`: a spacing, m.
-std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vector<Mirror>& planes, double size);
+// nodes that are images of each other have one number; those on an upper side have its bit, those on a lower one the
+// bit `lower_side` places on. `spacing`: in m.
+std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vector<Mirror>& planes, double spacing);
+constexpr int lower_side = 3;
 
 // Maps a point to its image: a product of reflections or a sum of periods, X → turn X + shift.
 struct Reflection {

@@ -27,7 +27,7 @@ def displacement(cases, axis, strain, center):
         row = strain * strain_tensor(case)[axis]
         linear = " + ".join(f"{row[b]:.17g}*({'xyz'[b]} - {center[b]:.17g})" for b in range(3) if row[b])
         if linear:
-            terms.append(f"(t > {n - 0.5})*(t < {n + 0.5})*({linear})")
+            terms.append(f"(t >= {n - 0.5})*(t < {n + 0.5})*({linear})")
     return " + ".join(terms) or "0"
 
 

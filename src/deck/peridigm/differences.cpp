@@ -80,7 +80,7 @@ class Differences {
                    "have horizons of their own: points of two of them are neighbors below the mean of both, and feel "
                    "each other's forces; in Peridigm each takes those within its own horizon, which reaches half the "
                    "difference of both farther, or less far. Points as far apart as a "
-                   "horizon, to 1e-9 of it, are neighbors here");
+                   "horizon, to 1e-4 of it, are neighbors here");
   }
 
   // Steps of the motion: where they end, and which of them have frames.

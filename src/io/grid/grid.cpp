@@ -50,7 +50,7 @@ void add_end(const Vector& cell, int axis, double half, const std::vector<Mirror
   FaceOnPlanes face{.point = cloud.shapes.size() - 1};
   const Vector middle = cloud.positions[face.point] + half * Vector::Unit(axis);
   for (const Mirror& plane : planes) {
-    if (std::abs(std::abs(plane.normal[axis]) - 1) > 1e-9 || !plane.holds(middle, std::abs(half))) continue;
+    if (std::abs(std::abs(plane.normal[axis]) - 1) > 1e-6 || !plane.holds(middle, cell.minCoeff())) continue;
     if (plane.period > 0) return;
     face.planes |= std::uint32_t{1} << plane.bit;
   }

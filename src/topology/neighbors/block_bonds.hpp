@@ -40,11 +40,13 @@ struct BlockBonds {
   double search_factor() const { return touching ? 1.6 : 1; }
 };
 
+// A neighbor at exactly the horizon stays in, despite coordinates in single precision, or of six digits.
+constexpr double with_round_off = 1 + 1e-4;
+
 // True if two points of one body, with these horizons (m) and the bond ξ, are in each other's families: |ξ| ≤ (δ_i +
 // δ_j)/2, which is symmetric.
 inline bool bonded(double one_horizon, double other_horizon, const Vector& xi) {
-  constexpr double tolerance = 1 + 1e-9;  // a neighbor at exactly the horizon stays in despite round-off
-  const double horizon = 0.5 * (one_horizon + other_horizon) * tolerance;
+  const double horizon = 0.5 * (one_horizon + other_horizon) * with_round_off;
   return xi.squaredNorm() <= horizon * horizon;
 }
 

@@ -65,9 +65,9 @@ struct CandidatePool {
 
   // A point on a symmetry plane, with the computed half of its cell, coincides with its image.
   bool is_own_image(int i, int j, const Vector& xi) const {
-    constexpr double round_off = 1e-8;  // of the horizon
+    constexpr double most = 6 * on_plane;  // of an edge of the cell's part before two planes or three
     return ids[i] != ids[j] && Images::original(ids[i]) == Images::original(ids[j]) &&
-           xi.squaredNorm() < round_off * round_off * horizons[i] * horizons[i];
+           xi.norm() < most * std::cbrt(volumes[i]);
   }
 };
 

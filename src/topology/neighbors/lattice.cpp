@@ -12,11 +12,11 @@ namespace strut {
 
 namespace {
 
-constexpr double tolerance = 1e-9;  // of coordinates, in spacings; of lengths relative to the horizon, as in bonded()
+constexpr double tolerance = 1e-9;  // of coordinates, in spacings
 
 // Largest distance along an axis, in cells, within a family.
 int cells_within(const LatticeFrame& frame, int axis) {
-  return static_cast<int>(std::floor(frame.horizon * (1 + tolerance) / frame.spacing[axis]));
+  return static_cast<int>(std::floor(frame.horizon * with_round_off / frame.spacing[axis]));
 }
 
 // ---- Detection of lattices -----------------------------------------------------------------------------------------

@@ -64,7 +64,8 @@ class SharedNodes {
       } else if (!is_mirrored) {
         visit(number);
       } else if (cloud_.at == PointsAt::nodes) {  // shared nodes are elements, none of which is its own image
-        for_each_image_at(body, cloud_.positions[i], image, [&](int one) { visit(Images::id(number, one)); });
+        for_each_image_at(body, cloud_.positions[i], cloud_.spacings[i], image,
+                          [&](int one) { visit(Images::id(number, one)); });
       } else {
         visit(Images::id(number, first_image(body, shared_node >> first_plane_bit, image)));
       }
@@ -74,10 +75,10 @@ class SharedNodes {
  private:
   // Calls visit for the images that map X to the same position as `image` does.
   template <class Visit>
-  void for_each_image_at(int body, const Vector& X, int image, const Visit& visit) const {
+  void for_each_image_at(int body, const Vector& X, double spacing, int image, const Visit& visit) const {
     const Images& images = mirrored_.images;
     const auto look_at = [&](int one) {
-      if (is_same(images[one](X), images[image](X))) visit(one);
+      if ((images[one](X) - images[image](X)).norm() < 4 * on_plane * spacing) visit(one);
     };
     look_at(0);
     for (const int one : images.of_body(body)) look_at(one);
@@ -115,9 +116,8 @@ class SharedNodes {
     }
     return otherwise;
   }
-  bool is_same(const Vector& a, const Vector& b) const { return (a - b).norm() < 1e-9 * size_; }
   bool is_same(const Reflection& a, const Reflection& b) const {
-    return (a.turn - b.turn).norm() < 1e-9 && is_same(a.shift, b.shift);
+    return (a.turn - b.turn).norm() < 1e-9 && (a.shift - b.shift).norm() < 1e-9 * size_;
   }
 
   const PointCloud& cloud_;

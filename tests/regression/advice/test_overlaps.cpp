@@ -169,6 +169,15 @@ TEST(Overlaps, OfPiecesOfABodyThatAreNotBondedAreTold) {
   for (const double apart : {5e-3, 5.1e-3}) EXPECT_EQ(told(apart).find("as much material"), std::string::npos) << apart;
 }
 
+// Nodes of both are one lattice of finer cells.
+TEST(Overlaps, OfElementsAreToldAtNodes) {
+  Parts parts;
+  parts.points = "Nodes";
+  EXPECT_NE(told_of_two({4, 4, 6}, {0.5e-3, 0, 0}, parts).find("do not fit the lattice"), std::string::npos);
+  EXPECT_NE(told_of_two({8, 8, 8}, Vector::Constant(0.5e-3), parts).find("times as much material"), std::string::npos);
+  EXPECT_EQ(told_of_two({4, 4, 6}, {0, 0, 7e-3}, parts).find("WARNING"), std::string::npos);
+}
+
 // Where no family is full, its volume does not tell.
 TEST(Overlaps, OfThinBodiesAreTold) {
   const std::string twice = "share no node: elements that overlap, or are given twice?";
@@ -188,6 +197,11 @@ TEST(Overlaps, AreNotWherePartsLieBesideEachOther) {
   EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4.2e-3}, quadratic()).find(unmerged), std::string::npos);   // a gap
   EXPECT_EQ(told_of_two({4, 8, 4}, {4e-3, 0, 4e-3}, quadratic()).find(unmerged), std::string::npos);  // at an edge
   EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4e-3}).find(unmerged), std::string::npos);                  // bonded
+  Parts at_nodes = quadratic();
+  at_nodes.points = "Nodes";
+  EXPECT_NE(told_of_two({4, 8, 4}, {0, 0, 4e-3}, at_nodes).find("90 points"), std::string::npos);
+  EXPECT_NE(told_of_two({4, 8, 4}, {0, 0, 4e-3}, at_nodes).find(unmerged), std::string::npos);
+  EXPECT_EQ(told_of_two({4, 8, 4}, {0, 0, 4.2e-3}, at_nodes).find(unmerged), std::string::npos);
 }
 
 // A crack cuts elements that share nodes into parts, too.

@@ -545,6 +545,33 @@ TEST(PeriodicSides, TellOfCellsWithoutANeighborButNotOfACrack) {
   EXPECT_TRUE(told("2e-3", false));
 }
 
+// Nodes miss the sides by the round-off of single precision; points without nodes show gaps at them.
+TEST(PeriodicSides, TellWhereTheyDoNotContinueTheMesh) {
+  const auto told = [](bool text, const std::string& lower, const std::string& upper) {
+    const RunFolder folder;
+    folder.write("points.txt", cubes(1, Vector::Zero(), 4, 4, 6, 1e-3));
+    Parts parts;
+    if (text) parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+    const std::string by = text ? "" : key("Formulation", "Quadratic Correspondence");
+    parts.materials = metal("Elastic Correspondence", by);
+    parts.blocks =
+        section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+    parts.conditions = sides("x", lower, upper);
+    const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+    return set_up(deck, folder.world).warnings;
+  };
+  const std::string path = "WARNING: Boundary Conditions > sides x: ";
+  for (const char* upper : {"4e-3", "4.000001e-3"}) {
+    for (const char* lower : {"0", "-1e-9", "1e-9"}) {
+      for (const bool text : {false, true}) EXPECT_EQ(told(text, lower, upper).find(path), std::string::npos) << lower;
+    }
+  }
+  EXPECT_NE(told(true, "0", "4.2e-3").find(path + "24 points"), std::string::npos) << told(true, "0", "4.2e-3");
+  EXPECT_NE(told(true, "-5e-4", "4e-3").find("5 m away from the one behind"), std::string::npos)
+      << told(true, "-5e-4", "4e-3");
+  EXPECT_NE(told(true, "0", "7e-3").find(path + "no bond crosses its sides"), std::string::npos);
+}
+
 // A bar that slides through the sides meets a box and a roll wherever these stand, as their images between the sides.
 TEST(PeriodicSides, ToolsHaveImages) {
   const RunFolder folder;
@@ -667,6 +694,7 @@ TEST(PeriodicSides, ThatDoNotFitAreRefused) {
   };
   EXPECT_NE(with(sides("x", "0", "3.0e-3")).find("not all between the sides"), std::string::npos);
   EXPECT_NE(with(sides("x", "0", "3.5e-3")).find("no element has a node on the upper side"), std::string::npos);
+  EXPECT_NE(with(sides("x", "-2e-4", "4e-3")).find("no element has a node on the lower side"), std::string::npos);
   EXPECT_NE(with(sides("x", "0", "0")).find("expected > Lower"), std::string::npos);
   EXPECT_NE(with(sides("xy", "0", "4e-3")).find("expected one: x, y or z"), std::string::npos);
   EXPECT_NE(with(sides("x", "0", "4e-3", "1 + x")).find("depends on x, y or z"), std::string::npos);

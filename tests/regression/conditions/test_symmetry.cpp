@@ -293,12 +293,39 @@ TEST(Symmetry, IsToldWhereThereIsNone) {
   EXPECT_NE(warnings(set, on("some", "0 0 0")).find(path + "8 points at the plane are not in the set"),
             std::string::npos);
   EXPECT_NE(warnings(set, on("foot", "0 0 0.4e-3")).find(path + "the plane runs through elements"), std::string::npos);
+  for (const std::string off : {"-", ""}) {
+    EXPECT_NE(warnings(set, on("foot", "0 0 " + off + "5e-5"))
+                  .find(path + "the plane is about 5e-05 m off the faces of 16 elements of the set"),
+              std::string::npos);
+  }
   EXPECT_NE(warnings(set, on("foot", "0 0 3e-3")).find(path + "the body of its points lies on both sides"),
             std::string::npos);
   EXPECT_EQ(warnings(set, on("all", "0 0 0")).find(path), std::string::npos);
   const std::string self = contact_of({{"bar", "bar"}}, "1e-3", "1e12");
   EXPECT_NE(warnings(set, on("foot", "0 0 0"), self).find(path + "contact does not see mirror images"),
             std::string::npos);
+}
+
+// Bonds to images run by nodes on the plane, which coordinates in single precision and normals of three digits miss.
+TEST(Symmetry, IsThatOfAPlaneThatMissesItsNodesByRoundOff) {
+  const auto bonds = [](Parts parts, const std::string& point, const std::string& normal) {
+    const RunFolder folder;
+    parts.conditions = plane("p", "Symmetry Plane", "foot", point, normal);
+    const Simulation run(folder, parts);
+    EXPECT_EQ(run.advice.warnings.find("> p:"), std::string::npos) << run.advice.warnings;
+    return run.world().sum(static_cast<std::int64_t>(run.scene.body.domain.families.bonds()));
+  };
+  Parts quadratic, visible;
+  quadratic.materials = material("Elastic Correspondence", key("Formulation", "Quadratic Correspondence"));
+  visible.blocks = changed(visible.blocks, key("Material", "copper"),
+                           key("Material", "copper") + key("Bonds Across Voids", "false"));
+  Parts at_nodes = visible;
+  at_nodes.points = "Nodes";
+  for (const Parts& parts : {quadratic, visible, at_nodes}) {
+    const auto all = bonds(parts, "0 0 0", "0 0 1");
+    EXPECT_EQ(bonds(parts, "0 0 1e-8", "0 0 1"), all);
+    EXPECT_EQ(bonds(parts, "0 0 -1e-8", "0 0.0005 1"), all);
+  }
 }
 
 // Faces on a plane are surface unless the body that they are of goes on behind it: the plane of a block is plane

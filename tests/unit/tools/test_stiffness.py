@@ -14,7 +14,7 @@ import netCDF4
 import numpy as np
 from decks import section
 from exodus import write_mesh
-from stiffness_parts import faces, show, tensors
+from stiffness_parts import faces, loads, show, tensors
 
 
 def isotropic(young_modulus, ratio):
@@ -260,6 +260,13 @@ def backus(layers):
     C[3, 3] = C[4, 4] = 1 / np.mean(1 / mu)
     C[5, 5] = np.mean(mu)
     return C
+
+
+class Loads(unittest.TestCase):
+    def test_one_load_case_follows_another_without_a_gap(self):
+        text = loads.displacement([0, 0, 0], 0, 1e-5, (0, 0, 0))
+        for t in (0.5, 1, 1.5, 2, 2.5, 3):
+            self.assertEqual(eval(text, {"t": t, "x": 1.0}), 1e-5)
 
 
 class Tensors(unittest.TestCase):
