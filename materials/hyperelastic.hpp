@@ -58,6 +58,14 @@ struct Hyperelastic {
     for (const Relaxation& one : times) rest -= one.fraction;
     return rest;
   }
+  // The elastomer that is left when this one has been held for a time, s.
+  Hyperelastic relaxed(double held) const {
+    Hyperelastic rest{.bulk = bulk, .terms = terms};
+    double left = 1;
+    for (const Relaxation& one : times) left += one.fraction * std::expm1(-held / one.time);
+    for (Term& term : rest.terms) term.modulus *= left;
+    return rest;
+  }
   Moduli moduli() const { return {bulk, shear()}; }
   Moduli moduli(const State& state) const { return {(1 + state.stiffening) * bulk, (1 + state.stiffening) * shear()}; }
   double elastic_energy(const Symmetric& stress, const State&) const {
