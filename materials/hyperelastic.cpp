@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "materials/spectral.hpp"
-#include "materials/step_work.hpp"
 
 namespace strut::materials {
 
@@ -33,26 +32,59 @@ Instant instant(const Hyperelastic& law, const Vector& stretches, double J) {
 
 Symmetric congruent(const Tensor& A, const Symmetric& s) { return symmetric_part(A * to_tensor(s) * A); }
 
-// The branches after a step: the sum of their deviators (Kirchhoff stress, Pa), and the work of their dampers (J/m³),
-// each beside a spring of modulus γ_k G.
+// What the history of relaxation needs of a stretch.
+struct Referred {
+  Symmetric stress, strain;  // S̃₀, Pa; Ē = ½ (J^(−2/3) U² − 1)
+  double energy = 0;         // without relaxation, J/m³
+};
+
+Referred referred(const Hyperelastic& law, const Tensor& U, double J, const Symmetric& fast, double energy) {
+  const double scale = std::cbrt(J * J);
+  return {scale * congruent(U.inverse(), fast), symmetric_part(0.5 * (U * U / scale - Tensor::Identity())),
+          energy + 0.5 * law.bulk * (J - 1) * (J - 1)};
+}
+
+Referred at_start(const Hyperelastic& law, const Hyperelastic::State& state) {
+  const Tensor U = Tensor::Identity() + to_tensor(Symmetric(state.last.data()));
+  const Principal stretch = principal(symmetric_part(U));
+  const double J = stretch.values.prod();
+  const Instant then = instant(law, stretch.values, J);
+  return referred(law, U, J, from_principal(then.deviator, stretch.axes), then.energy);
+}
+
+// v of a quantity s that moves from a to b in a step as ṡ = const − s/t_k, x = Δt/t_k: the mean of s is
+// ½ (a + b) + x v (b − a), that of s² the square of this and v (b − a)².
+double variance(double x) {
+  constexpr double small = 0.1;  // below it the series errs by less than the round-off of the closed form
+  if (x < small) return 1.0 / 12 - x * x / 720 + x * x * x * x / 30240;
+  return (0.5 / std::tanh(0.5 * x) - 1 / x) / x;
+}
+
+// The branches after a step: the sum of their deviators (Kirchhoff stress, Pa), the mean of Σ γ_k h_k in the step, and
+// the work of their dampers (J/m³), each beside a spring of modulus γ_k `modulus`.
 struct Branches {
-  Symmetric carried = Symmetric::Zero();
+  Symmetric carried = Symmetric::Zero(), mean = Symmetric::Zero();
   double damped = 0;
 };
 
-Branches moved_on(const Hyperelastic& law, const PointStep& step, const Symmetric& change, Hyperelastic::State& state) {
+Branches moved_on(const Hyperelastic& law, const PointStep& step, const Symmetric& change, double modulus,
+                  Hyperelastic::State& state) {
   const Tensor U = to_tensor(step.stretch);
   const double scale = 1 / std::cbrt(step.J * step.J);
   Branches sum;
   for (int k = 0; k < Hyperelastic::most_times; ++k) {
     const auto& [fraction, time] = law.times[k];
     if (fraction == 0) continue;
+    const double x = step.dt / time, v = variance(x);
     Eigen::Map<Symmetric> branch(state.branches.data() + 6 * k);
-    const Symmetric before = deviator(Symmetric(scale * congruent(U, branch)));
-    branch = std::exp(-step.dt / time) * branch + std::exp(-0.5 * step.dt / time) * change;
-    const Symmetric after = deviator(Symmetric(scale * congruent(U, branch))), middle = 0.5 * (before + after);
-    sum.carried += fraction * after;
-    sum.damped += fraction * double_dot(middle, middle) / (2 * law.shear()) * step.dt / time;
+    const Symmetric start = branch;
+    branch = std::exp(-x) * start - std::expm1(-x) / x * change;
+    const Symmetric mean = 0.5 * (start + branch) + x * v * (branch - start);
+    const auto deviator_of = [&](const Symmetric& h) { return deviator(Symmetric(scale * congruent(U, h))); };
+    const Symmetric middle = deviator_of(mean), more = deviator_of(branch - start);
+    sum.carried += fraction * deviator_of(branch);
+    sum.mean += fraction * mean;
+    sum.damped += fraction * x * (double_dot(middle, middle) + v * double_dot(more, more)) / (2 * modulus);
   }
   return sum;
 }
@@ -68,22 +100,24 @@ PointStress Hyperelastic::step(const PointStep& step, const Symmetric& stress, S
   Symmetric kirchhoff = fast;
   State next = state;
   next.stored = now.energy + 0.5 * bulk * (step.J - 1) * (step.J - 1);
-  const bool relaxes = kept() < 1;
-  Branches branches;
-  if (relaxes) {
-    const Tensor inverse = to_tensor(step.stretch).inverse();
-    const Symmetric reference = std::cbrt(step.J * step.J) * congruent(inverse, fast);
-    const Symmetric change = reference - Eigen::Map<const Symmetric>(state.last.data());
-    Eigen::Map<Symmetric>(next.last.data()) = reference;
-    branches = moved_on(*this, step, change, next);
+  if (kept() < 1) {
+    const Tensor U = to_tensor(step.stretch);
+    const Referred before = at_start(*this, state), after = referred(*this, U, step.J, fast, now.energy);
+    Eigen::Map<Symmetric>(next.last.data()) = symmetric_part(U - Tensor::Identity());
+    // A secant modulus, so that a branch which relaxes at a held stretch dissipates all that it stores.
+    constexpr double measurable = 1e-16;  // strain², above which the energy has digits
+    const double secant = now.energy > measurable * shear() ? double_dot(fast, fast) / (4 * now.energy) : shear();
+    const Branches branches = moved_on(*this, step, after.stress - before.stress, secant, next);
     kirchhoff = kept() * fast + branches.carried;
+    // The work of the instant law less ∫ Σ γ_k (S̃₀ − h_k) : dĒ, which relaxation has taken from its stress. Not the
+    // work of the forces of the step: the balance of energy is to show how far that is off in coarse load steps.
+    const Symmetric relaxed = 0.5 * (1 - kept()) * (before.stress + after.stress) - branches.mean;
+    const double work = after.energy - before.energy - double_dot(relaxed, after.strain - before.strain);
+    next.dissipated = state.dissipated + branches.damped;
+    next.stored = state.stored + work - branches.damped;
   }
   Symmetric cauchy = kirchhoff / step.J;
   cauchy.head<3>().array() += pressure;
-  if (relaxes) {
-    next.dissipated = state.dissipated + branches.damped;
-    next.stored = state.stored + step_work(step, old_determinant(step), stress, cauchy) - branches.damped;
-  }
   // ∂σ_i/∂ln λ_i of dev τ/J, where the second term stems from 1/J, and of the pressure.
   const Vector along = (now.stiffness - now.deviator) / step.J + Vector::Constant(bulk * step.J);
   next.stiffening = std::max(0.0, along.maxCoeff() / moduli().longitudinal() - 1);

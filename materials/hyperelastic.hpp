@@ -2,7 +2,8 @@
 //   W = Σ_p μ_p/α_p (λ̄₁^α_p + λ̄₂^α_p + λ̄₃^α_p − 3) + ½ K (J − 1)²,   λ̄_i = J^(−1/3) λ_i
 // of which neo-Hooke (α = 2) and Mooney & Rivlin (α = 2, −2) are cases; and relaxation of the deviator by a Prony
 // series (Simo 1987; Simo & Hughes, Computational Inelasticity, 10.3): S̃ = J^(2/3) U⁻¹ dev τ U⁻¹, and
-//   dev τ = γ_∞ dev τ₀ + Σ_k γ_k dev(J^(−2/3) U h_k U),   h_k ← e^(−Δt/t_k) h_k + e^(−Δt/2t_k) ΔS̃₀,   γ_∞ = 1 − Σ γ_k.
+//   dev τ = γ_∞ dev τ₀ + Σ_k γ_k dev(J^(−2/3) U h_k U),   h_k ← e^(−x) h_k + (1 − e^(−x))/x ΔS̃₀,   x = Δt/t_k,
+// γ_∞ = 1 − Σ γ_k: exact if S̃₀ changes at a constant rate, however long the step.
 // A law of the second form (law.hpp): it reads U, in the unrotated frame. The moduli are those of fast loading.
 // Units: Pa, s.
 #pragma once
@@ -33,11 +34,12 @@ struct Hyperelastic {
   struct State {
     double stiffening = 0;  // the largest tangent along a principal axis over that of the undeformed state, − 1
     double stored = 0, dissipated = 0;              // J per m³ of reference volume
-    std::array<double, 6> last{};                   // S̃₀ at the end of the last step, Pa
+    std::array<double, 6> last{};                   // U − 1 at the end of the last step, if it relaxes
     std::array<double, 6 * most_times> branches{};  // h_k, Pa
   };
   static constexpr auto state_names = words<9 + 6 * most_times>(
-      "Stiffening Elastic_Energy_Density Dissipated_Energy_Density Last_XX Last_YY Last_ZZ Last_XY Last_YZ Last_ZX "
+      "Stiffening Elastic_Energy_Density Dissipated_Energy_Density "
+      "Last_Stretch_XX Last_Stretch_YY Last_Stretch_ZZ Last_Stretch_XY Last_Stretch_YZ Last_Stretch_ZX "
       "Branch_1_XX Branch_1_YY Branch_1_ZZ Branch_1_XY Branch_1_YZ Branch_1_ZX "
       "Branch_2_XX Branch_2_YY Branch_2_ZZ Branch_2_XY Branch_2_YZ Branch_2_ZX "
       "Branch_3_XX Branch_3_YY Branch_3_ZZ Branch_3_XY Branch_3_YZ Branch_3_ZX "
@@ -54,6 +56,14 @@ struct Hyperelastic {
   double kept() const {  // γ_∞
     double rest = 1;
     for (const Relaxation& one : times) rest -= one.fraction;
+    return rest;
+  }
+  // The elastomer that is left when this one has been held for a time, s.
+  Hyperelastic relaxed(double held) const {
+    Hyperelastic rest{.bulk = bulk, .terms = terms};
+    double left = 1;
+    for (const Relaxation& one : times) left += one.fraction * std::expm1(-held / one.time);
+    for (Term& term : rest.terms) term.modulus *= left;
     return rest;
   }
   Moduli moduli() const { return {bulk, shear()}; }

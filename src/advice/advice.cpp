@@ -17,7 +17,7 @@ constexpr Check checks[] = {
     doubled_numbers,
     volumes_off_lattices,
     improbable_materials,
-    soft_springs,
+    springs_of_elastomers,
     improbable_temperatures,
     improbable_scales,
     large_elastic_strains,

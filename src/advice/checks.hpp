@@ -49,8 +49,9 @@ std::string outline(const Situation& situation);
 // has; it names the units.
 std::string improbable_materials(const Situation& situation);
 
-// A warning for each block of an elastomer whose springs have less than half the default stiffness.
-std::string soft_springs(const Situation& situation);
+// A warning for each block of an elastomer whose springs have less than half the default stiffness, or which relaxes
+// while they do not.
+std::string springs_of_elastomers(const Situation& situation);
 
 // A warning for each block of a metal that is initially molten, or so cold that its temperature may be in °C, and for
 // each prescribed temperature below 0 K.

@@ -250,7 +250,9 @@ std::string overruled_motions(const Situation& situation) {
     if (found[n].count == 0) continue;
     text << "WARNING: the tool '" << scene.tools[n / count].name << "' runs into " << found[n].count << " points that '"
          << deck.conditions[n % count].name << "' holds along its normal, one of them at " << place_text(found[n].one)
-         << ", by t = " << -firsts[n] << " s: tools have the last word, so that they do not move as prescribed"
+         << ", by t = " << -firsts[n] << " s: "
+         << (scene.quasi_static ? "held points stay, so that there is no equilibrium from then on"
+                                : "tools have the last word, so that they do not move as prescribed")
          << (tools[n / count].free ? ", and what the tool loses to them depends on the time step" : "")
          << "; expected paths that agree, or a Node Set of the tool without these points\n";
   }

@@ -552,8 +552,17 @@ Reactions Equilibrium::reactions(int conditions) const {
   return all;
 }
 
-std::string Equilibrium::weakest_point() const {
+std::string Equilibrium::weakest_point(const Imbalance& last) const {
   const Communicator& ranks = body_.domain.communicator;
+  const auto [deepest, overlap] = tools_.deepest();
+  const double most = ranks.max(overlap);
+  if (most > 0 && is_balanced(last, tolerance_)) {  // the rounds of the multipliers did not end
+    if (overlap != most) return "";
+    std::ostringstream line;
+    line << "forces are balanced, but a tool overlaps by " << overlap << " m with " << locate(body_, deepest)
+         << "; if a condition holds it there, expected a Node Set of the tool without it, else shorter load steps";
+    return line.str();
+  }
   double largest = 0;
   int worst = -1;
   for (int i = 0; i < body_.owned(); ++i) {

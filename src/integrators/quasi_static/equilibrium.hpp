@@ -76,7 +76,8 @@ class Equilibrium {
   // N, forces of the last trial in free directions; none in parts that are balanced and wait for others.
   const Field& residual() const { return residual_; }
   // Collective. A sentence with point, block and position where the last trial failed, or has the largest residual.
-  std::string weakest_point() const;
+  // `last`: of that trial; if it is balanced, the point that a tool overlaps most is what hinders.
+  std::string weakest_point(const Imbalance& last) const;
 
   // Collective. Sets the tangent at the last trial, for apply(): result = K field, N; held components included.
   void linearize();

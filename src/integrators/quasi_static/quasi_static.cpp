@@ -166,7 +166,7 @@ bool QuasiStatic::advance() {
       commit(search);
       return true;
     }
-    const std::string where = search.converged ? "" : equilibrium_.weakest_point();
+    const std::string where = search.converged ? "" : equilibrium_.weakest_point(search.left);
     equilibrium_.go_back();
     if (search.interrupted) return false;
     dt_ *= 0.5;
@@ -235,7 +235,7 @@ std::int64_t QuasiStatic::settle(EquilibriumSearch& search) {
     all += now.bonds;
     const EquilibriumSearch found = search_in_rounds(control_.with_tangent);
     search.iterations += found.iterations, search.evaluations += found.evaluations, search.left = found.left;
-    if (!found.converged) raise_no_equilibrium(all);
+    if (!found.converged) raise_no_equilibrium(found.left, all);
     equilibrium_.evaluate(true);
     take_work();
     in_jumps_ += equilibrium_.body().domain.communicator.sum(equilibrium_.work_of_jump());
@@ -245,8 +245,8 @@ std::int64_t QuasiStatic::settle(EquilibriumSearch& search) {
   return all;
 }
 
-void QuasiStatic::raise_no_equilibrium(std::int64_t broken) {
-  const std::string where = equilibrium_.weakest_point();
+void QuasiStatic::raise_no_equilibrium(const Imbalance& left, std::int64_t broken) {
+  const std::string where = equilibrium_.weakest_point(left);
   time_ += dt_;  // of the frame and the row that show where the search has ended
   std::ostringstream text;
   text << "no equilibrium at t = " << time_ << " s after "

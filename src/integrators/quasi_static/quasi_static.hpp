@@ -61,7 +61,7 @@ class QuasiStatic {
   void take_work();
   void commit(EquilibriumSearch search);
   std::int64_t settle(EquilibriumSearch& search);
-  void raise_no_equilibrium(std::int64_t broken);
+  void raise_no_equilibrium(const Imbalance& left, std::int64_t broken);
   void report(const EquilibriumSearch& search, std::int64_t broken) const;
   void serialize_steps(Archive& archive);
 

@@ -132,6 +132,14 @@ double ToolContact::violation(const std::vector<double>& largest_pressures, cons
   return largest;
 }
 
+std::pair<int, double> ToolContact::deepest() const {
+  std::pair<int, double> found{-1, 0};
+  for (const ContactPoint& contact : contact_points_) {
+    if (-contact.gap > found.second) found = {contact.point, -contact.gap};
+  }
+  return found;
+}
+
 bool ToolContact::has_changed() {
   bool changed = false;
   for (ContactPoint& contact : contact_points_) {

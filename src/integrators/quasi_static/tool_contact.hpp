@@ -6,6 +6,7 @@
 // constant: it only decides the number of these rounds.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "base/archive.hpp"
@@ -35,6 +36,8 @@ class ToolContact {
   // Error of contact at the last forces on this rank's points, over the allowed one: above 1 another round of the
   // multipliers is needed. `largest_pressures`: over all ranks, N.
   double violation(const std::vector<double>& largest_pressures, const SeparateParts& parts) const;
+  // The point of this rank that a tool overlaps most, and by how much, m; -1 and 0 if none.
+  std::pair<int, double> deepest() const;
   // True if other points of this rank touch than at the last call.
   bool has_changed();
   void augment();  // λ ← t

@@ -79,6 +79,29 @@ TEST(Improbable, SoftSpringsOfElastomersAreWarnedOf) {
   }
 }
 
+// In 10 ms the elastomer keeps 0.05 of its shear modulus, in 1 µs nearly all of it. The coefficient that fits is the
+// default of neo-Hooke with what is left, 4·0.05 MPa, in units of the fast moduli, 20 MPa + 4/3 MPa, within the limits.
+TEST(Improbable, SpringsThatDoNotRelaxWithTheirElastomerAreWarnedOf) {
+  const auto told = [](const std::string& more, const char* until) {
+    Parts parts = flying();
+    parts.materials = section("copper", key("Material Model", "Hyperelastic") + key("Density", "1100") +
+                                            key("Bulk Modulus", "20e6") + key("Shear Modulus", "1e6") + more +
+                                            section("Relaxation", key("Fractions", "0.95") + key("Times", "1e-4")));
+    parts.times = key("Final Time", until);
+    return told_of(parts);
+  };
+  const std::string not_relax = "the springs of its stabilization do not relax", soft = "the default is";
+  expect_told(told("", "1e-2"),
+              {"block 'bar': its elastomer relaxes to 0.05 of its shear modulus in the run, but " + not_relax,
+               "a Stabilization Coefficient of 0.0094"});
+  EXPECT_EQ(told("", "1e-6").find(not_relax), std::string::npos) << "too short";
+  const std::string fitting = told(key("Stabilization Coefficient", "0.0094"), "1e-2");
+  EXPECT_EQ(fitting.find(not_relax), std::string::npos) << fitting;
+  EXPECT_EQ(fitting.find(soft), std::string::npos) << fitting;
+  expect_told(told(key("Stabilization Coefficient", "0.0094"), "1e-6"), {soft});
+  EXPECT_EQ(told(key("Formulation", "Quadratic Correspondence"), "1e-2").find(not_relax), std::string::npos);
+}
+
 // A rubber with a small bulk modulus has 32 m/s; with its moduli in kPa it would have 1.
 TEST(Improbable, SoftRubberIsProbable) {
   for (const bool in_pascal : {true, false}) {
@@ -544,6 +567,14 @@ TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
               {"WARNING: the tool 'tool' runs into 16 points that 'foot' holds along its normal"});
   expect_told(told(motion("xyz", "0"), "10*t"), {"16 points that 'foot' holds", "tools have the last word"});
   expect_told(told(plane("cut", "Symmetry Plane", "foot", "0 0 0", "0 0 1"), "10*t"), {"16 points that 'cut' holds"});
+  Parts slow;
+  slow.conditions = motion("xyz", "0") + section("tool", key("Type", "Rigid Plane") + key("Point", "0 0 0") +
+                                                             key("Normal", "0 0 1") + key("Travel Z", "10*t"));
+  slow.times = key("Final Time", "1e-5");
+  const RunFolder folder;
+  const std::string text = changed(slow.text(), section("Verlet", slow.verlet), section("QuasiStatic", ""));
+  const deck::Deck deck = deck::read(folder.write("deck.xml", text), folder.world);
+  expect_told(described(deck, folder.world), {"held points stay, so that there is no equilibrium from then on"});
   const std::string stroke = "table(t, 0, 0, 1.005e-6, 0, 1.01e-6, 1e-4, 1.015e-6, 0)";  // within a thousandth
   expect_told(told(motion("xyz", "0"), stroke), {"16 points that 'foot' holds", "by t = 1.0"});
   EXPECT_EQ(told(motion("xy", "0"), "10*t").find("last word"), std::string::npos) << "held across the normal";

@@ -384,6 +384,17 @@ TEST(SlowLoading, EachBodyTurnsByItself) {
   EXPECT_NEAR(work(true), alone, 1e-5 * alone);  // what residual forces of 1e-9 of the loads may change
 }
 
+// Forces balance, but held points cannot leave the tool.
+TEST(SlowLoading, NamesTheToolThatRunsIntoHeldPoints) {
+  Parts parts;
+  parts.conditions = along("foot", "Prescribed Displacement", "foot", "xyz", "0") +
+                     section("tool", key("Type", "Rigid Plane") + key("Point", "0 0 0") + key("Normal", "0 0 1") +
+                                         key("Travel Z", "1e-5*t"));
+  const Files files = files_of(parts, key("Number of Load Steps", "1"), {}, Lattice{.nx = 3, .ny = 3});
+  EXPECT_NE(files.error.find("forces are balanced, but a tool overlaps by"), std::string::npos) << files.error;
+  EXPECT_NE(files.error.find("if a condition holds it there, expected a Node Set"), std::string::npos) << files.error;
+}
+
 // A bar that hangs without hardening from its foot, under twice what it can carry.
 TEST(SlowLoading, LeavesTheLastEquilibriumWhereThereIsNoOther) {
   Parts parts;
