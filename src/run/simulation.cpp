@@ -234,13 +234,16 @@ void Run::Parts::watch_step() {
     const Ledger now = ledger ? *ledger : solver.ledger();
     monitor->check_energy(now, last);
     monitor->check_resolution(now, last);
+    monitor->check_soft_contact(now, solver.contact(), last, Monitor::Steps::of_time);
   }
   progress->show(solver.steps(), solver.time(), solver.dt());
 }
 
 void Run::Parts::watch_equilibrium() {
-  const auto ledger = record();
-  monitor->check_energy(ledger ? *ledger : equilibria->ledger(), last);
+  const auto written = record();
+  const Ledger ledger = written ? *written : equilibria->ledger();
+  monitor->check_energy(ledger, last);
+  monitor->check_soft_contact(ledger, equilibria->contact(), last, Monitor::Steps::of_load);
   monitor->check_failed(time());
   watch_bodies(*equilibria);
 }
