@@ -68,6 +68,7 @@ class Contact {
 
   double stiffness() const { return stiffness_; }  // a bound of ω² of all touching points, 1/s²; as last agreed
   double energy() const;                           // stored by this rank's points, J
+  double energy_of_surfaces() const;               // of it, by interactions between surfaces, J
 
   // Deepest penetration at the last forces, over the touching distance of the pair (between surfaces: in spacings).
   double penetration() const { return penetration_; }  // over all ranks, as last agreed

@@ -11,6 +11,12 @@ double Contact::energy() const {
   return sum;
 }
 
+double Contact::energy_of_surfaces() const {
+  double sum = 0;
+  for (const ContactPair& pair : contact_pairs_) sum += pair.surfaces ? pair.result.energy : 0;
+  return sum;
+}
+
 DeepestPenetration Contact::deepest() const {
   DeepestPenetration deepest;
   for (const ContactPair& contact_pair : contact_pairs_) deepest.take(contact_pair.result.deepest);

@@ -110,6 +110,10 @@ std::string improbable_stretches(const Situation& situation);
 // ordinary points have an error of a tenth in tension, or quadratic correspondence may have one of a twentieth.
 std::string thin_members(const Situation& situation);
 
+// A line for each body and axis along which outer layers of cells are held or pressed by a plane, if what does not
+// strain there adds a twentieth to the stiffness.
+std::string unstrained_ends(const Situation& situation);
+
 // The warnings of blocks with points whose families nearly lie in a plane.
 std::string flat_families(const Situation& situation);
 
@@ -148,6 +152,9 @@ std::string undeclared_contacts(const Situation& situation);
 // bonded points; for interactions of all blocks, only if all these bonds bridge a gap; for a block and itself, if bonds
 // bridge a gap between parts of its mesh.
 std::string bonded_contacts(const Situation& situation);
+
+// A warning for every two blocks without an interaction whose bonds all bridge a gap, unless other blocks join them.
+std::string bonded_gaps(const Situation& situation);
 
 // A warning for every two bonded blocks that meet others by surfaces: each senses, and is sensed, as if it ended at the
 // other.

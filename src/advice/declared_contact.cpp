@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -95,6 +96,45 @@ Vector edges_on_lattice(const Domain& domain, int i) {
 // each axis, whose cells need not be cubes nor stand in line.
 bool touch(const Vector& xi, double spacing, const Vector& edges, double gap) {
   return xi.norm() <= gap * spacing || (xi.cwiseAbs().array() <= gap * edges.array()).all();
+}
+
+// True if a bond joins elements with a node in common, or cells that touch.
+bool bridges_nothing(const Domain& domain, const MeshNodes& nodes, int i, int j, double spacing, const Vector& edges) {
+  return (nodes.of_both(i, j) && nodes.may_join(i, j)) ||
+         touch(bond(domain, i, j), spacing, edges, nodes.of_both(i, j) ? gap_of_elements : gap_of_points);
+}
+
+// Collective. The pairs of blocks that are bonded to each other across a gap only, and not joined by other blocks.
+std::set<std::pair<int, int>> bonded_across_gaps(const Domain& domain, const std::vector<int>& blocks,
+                                                 const MeshNodes& nodes) {
+  const int count = static_cast<int>(domain.blocks.size());
+  std::vector<double> kinds(count * count, 0);  // 1: bonds across a gap only, 2: others, too
+  for (int i = 0; i < domain.owned && count > 1; ++i) {
+    const int here = domain.cloud.blocks[i];
+    std::optional<Vector> edges;
+    domain.families.for_each(i, [&](int j) {
+      if (blocks[j] == here) return;
+      double& kind = kinds[std::min(here, blocks[j]) * count + std::max(here, blocks[j])];
+      if (kind == 2) return;
+      if (!edges) edges = edges_on_lattice(domain, i);
+      const double spacing = std::max(domain.blocks[here].spacing, domain.blocks[blocks[j]].spacing);
+      kind = bridges_nothing(domain, nodes, i, j, spacing, *edges) ? 2 : 1;
+    });
+  }
+  domain.communicator.max(kinds);
+  std::vector<int> piece(count);
+  std::iota(piece.begin(), piece.end(), 0);
+  std::set<std::pair<int, int>> pairs;
+  for (const int kind : {2, 1}) {
+    for (int a = 0; a < count; ++a) {
+      for (int b = a + 1; b < count; ++b) {
+        if (kinds[a * count + b] != kind || piece[a] == piece[b]) continue;
+        if (kind == 2) std::ranges::replace(piece, int(piece[b]), int(piece[a]));
+        if (kind == 1) pairs.insert({a, b});
+      }
+    }
+  }
+  return pairs;
 }
 
 // Number of bonds between two blocks, both ends counted as one, how many of them are between elements with a node in
@@ -221,6 +261,21 @@ std::string bonded_contacts(const Situation& situation) {
     }
   }
   return text.str();
+}
+
+// Where contact is declared, bonded_contacts() tells of them.
+std::string bonded_gaps(const Situation& situation) {
+  const Domain& domain = situation.scene.body.domain;
+  if (domain.blocks.size() < 2 || !is_whole(situation.scene.body)) return "";
+  std::string text;
+  const std::vector<std::string>& names = domain.cloud.block_names;
+  for (const auto& [a, b] : bonded_across_gaps(domain, blocks_of(domain), MeshNodes(domain))) {
+    if (declared(situation.interactions, a, b)) continue;
+    text += "WARNING: blocks " + names[a] + " and " + names[b] +
+            " are bonded to each other across the gap between them, as one body; expected, for bodies that meet, " +
+            remedy(situation.deck, names[a], names[b]) + " and contact between them (Contact > Interactions)\n";
+  }
+  return text;
 }
 
 // Two blocks that are bonded and meet a third, or one of themselves.

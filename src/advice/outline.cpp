@@ -25,6 +25,9 @@ constexpr double least_heat = 20, most_heat = 20e3;  // J/(kg K): gold has 130, 
 // Plausible sizes, m: smaller bodies are a few atoms across, larger ones no specimens. A wave should cross a body
 // larger than `long_for_waves` in the run; with lengths in mm taken for m, it covers a thousandth of it.
 constexpr double least_size = 1e-8, most_size = 1e3, long_for_waves = 0.5;  // m
+// In the same case equilibria, and runs in which waves cross the body so many times, have bodies of tons.
+constexpr double most_mass = 1e4;  // kg: a cube of foam of 4 mm weighs 19 t if these are m
+constexpr double crossings_of_slow = 100;
 
 // Speed of longitudinal waves in the undeformed material, m/s.
 double wave_speed(const BlockMaterial& material) {
@@ -323,6 +326,11 @@ std::string improbable_scales(const Situation& situation) {
   } else if (!scene.quasi_static && size > long_for_waves && most * duration < size) {
     text << "WARNING: the bodies are " << size << " m long, and in the " << duration << " s of the run a wave goes "
          << most * duration << " m: are lengths of the mesh in m, not in mm?\n";
+  } else if (const double mass = mass_of(scene.body);
+             size > long_for_waves && mass > most_mass &&
+             (scene.quasi_static || most * duration > crossings_of_slow * size)) {
+    text << "WARNING: the bodies are " << size << " m long and weigh " << mass
+         << " kg: are lengths of the mesh in m, not in mm?\n";
   }
   const double difference = scene.quasi_static ? 0 : largest_difference(situation);
   if (difference > least) {

@@ -24,13 +24,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Notes intervals longer than the explicit steps of Solver 2: equilibria often last a thousand times as long.
+// Notes intervals longer than the run, or than the explicit steps of Solver 2: equilibria often last a thousand times
+// as long.
 void tell_of_long_intervals(const Deck& deck, Problems& problems) {
-  const double duration = deck.next_solver->duration();
+  const double duration = deck.next_solver ? deck.next_solver->duration() : deck.solver.duration();
   const auto tell = [&](const std::string& path, const auto& sink) {
     if (sink.parts > 0 || !sink.interval || *sink.interval < duration) return;
-    problems.note(path, "is " + to_text(*sink.interval) + " s, also in Solver 2, which lasts " + to_text(duration) +
-                            " s: of its steps only the last one is written");
+    if (deck.next_solver) {
+      problems.note(path, "is " + to_text(*sink.interval) + " s, also in Solver 2, which lasts " + to_text(duration) +
+                              " s: of its steps only the last one is written");
+    } else if (*sink.interval > (1 + 1e-9) * duration) {
+      problems.note(path, "is " + to_text(*sink.interval) + " s, and the run lasts " + to_text(duration) +
+                              " s: only its start and its end are written");
+    }
   };
   tell("Output > Output Interval", deck.output);
   tell("History > Interval", deck.history);
@@ -63,7 +69,8 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
                      steps_follow, problems);
   deck.output = read_output(values, deck.solver, problems);
   deck.history = read_history(values, deck.solver, problems);
-  if (steps_follow) tell_of_long_intervals(deck, problems), tell_of_wall_time(deck, problems);
+  tell_of_long_intervals(deck, problems);
+  if (steps_follow) tell_of_wall_time(deck, problems);
   add_probes(values, deck.node_sets);
   deck.restart = read_restart(values, file, deck.output.enabled, problems);
   if (steps_follow && deck.restart.asked_for && deck.restart.enabled) {

@@ -281,6 +281,8 @@ void Monitor::serialize(Archive& archive) {
   archive.number("next_tools", next_tools_);
   archive.number("next_energy", next_energy_);
   archive.number("failed_before", failed_before_);
+  archive.number("most_in_contact", most_in_contact_);
+  archive.number("part_in_contact", part_in_contact_);
   for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), warned_[what]);
 }
 
@@ -416,6 +418,29 @@ void Monitor::check_springs(double time) {
                " has taken up; up to 10 % is usual. The motion is finer than the points resolve: expect "
                "wrong stresses. Likely causes: too few points, metal that is too soft to hold together, another "
                "Stabilization Coefficient than the default"));
+}
+
+// Springs in series have one force, so each has the part of the shortening that it has of the stored energy. Of what
+// flows it has up to twice that part.
+void Monitor::check_soft_contact(const Ledger& ledger, const contact::Contact& contact, bool last, Steps steps) {
+  constexpr double slow = 0.05;          // kinetic over internal energy: as users of explicit finite elements accept
+  constexpr double worth_saying = 0.05;  // of the shortening: the least error of thin members that is told, too
+  if (!contact.any()) return;
+  const double stored = body_.domain.communicator.sum(contact.energy_of_surfaces());
+  const double internal = stored + ledger.elastic + ledger.dissipated + ledger.stabilization;
+  if (stored > most_in_contact_ && ledger.kinetic <= slow * internal)
+    most_in_contact_ = stored, part_in_contact_ = stored / internal;
+  if (!last || !(part_in_contact_ > worth_saying && most_in_contact_ > worth_a_warning * ledger.largest)) return;
+  const double stiffer = part_in_contact_ / (1 - part_in_contact_) * (1 - worth_saying) / worth_saying;
+  std::ostringstream text;
+  text.precision(2);
+  text << "contact between surfaces held up to " << 100 * part_in_contact_
+       << " % of the energy that it and the bodies took up: it gives way by so much of the shortening, and elastic "
+          "bodies "
+          "that press on each other are too soft by it. For 5 % expected "
+       << (steps == Steps::of_load ? "" : "a finer mesh, or equilibria (Solver > QuasiStatic) with ")
+       << "a Stiffness Factor " << stiffer << " times as large (Contact > Models)";
+  warn(soft_contact, text.str());
 }
 
 // The largest stretch of a point with all its bonds is at most the norm of F.

@@ -18,6 +18,7 @@ namespace strut {
 
 class Monitor {
  public:
+  enum class Steps { of_time, of_load };
   // `duration`: of the run, s. `print`: prints a line, on any rank.
   Monitor(const deck::Watch& limits, double duration, const Body& body, std::function<void(const std::string&)> print)
       : limits_(limits), pause_(duration / checks), body_(body), print_(std::move(print)) {}
@@ -33,13 +34,15 @@ class Monitor {
   void check_interpenetration(double time, const contact::Contact& contact);  // interpenetration of bodies
   // Deformation that the points do not resolve, after a step with diagnostics: warns once, never ends a run.
   void check_resolution(const Ledger& ledger, bool last);
+  // Collective. Contact between surfaces that gives way so much that bodies pressed on each other are too soft: told
+  // once in a run, at its end.
+  void check_soft_contact(const Ledger& ledger, const contact::Contact& contact, bool last, Steps steps);
   void check_failed(double time);  // points without stress in an equilibrium: warns once
   // Plastic work that load steps miss (J; energies.hpp), at the end of a run of equilibria.
   void check_plastic_work(const Ledger& ledger, double missed);
   // Omissions of the deck, at some checks: material that passes through material without contact, and tools (named as
   // in `tools`) between points that are bonded to each other.
   void check_undeclared(double time, const contact::Contact& contact);
-  enum class Steps { of_time, of_load };
   void check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools,
                    Steps steps = Steps::of_time);
 
@@ -64,6 +67,7 @@ class Monitor {
     meeting,
     unstored,
     uncounted,
+    soft_contact,
     count
   };
   static constexpr double checks = 200;       // checks per run of energies, interpenetration and tools between points
@@ -92,7 +96,10 @@ class Monitor {
   std::vector<std::uint8_t> overlapped_ = {};
   double first_step_ = 0;  // s, stable step at the start
   int ledgers_ = 0;
-  double warned_error_ = 0;    // of the balance
+  double warned_error_ = 0;  // of the balance
+  // The most that surfaces in contact have stored while motion was slow, J, and its part of what they and the bodies
+  // had taken up.
+  double most_in_contact_ = 0, part_in_contact_ = 0;
   double failed_before_ = -1;  // points that had failed before the first load step; -1: not yet counted
   bool warned_[count] = {};
 };

@@ -216,4 +216,42 @@ std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& ta
       "Points \"Elements\" or a finer mesh keep the mass\n");
 }
 
+std::string conditions_at_shared_nodes(const deck::Deck& deck, const Body& body, const std::vector<double>& taken) {
+  constexpr double worth_telling = 0.01;  // of the volume
+  constexpr double alike = 0.1;           // relative difference of moduli
+  constexpr const char* reason =
+      ": a node that blocks share is of the block that stands first in the mesh; expected Points \"Elements\"\n";
+  if (taken.empty()) return "";
+  const std::size_t blocks = body.blocks.size();
+  std::vector<double> of_points(blocks, 0);
+  for (int i = 0; i < body.owned(); ++i) of_points[body.domain.cloud.blocks[i]] += body.domain.volume(i);
+  body.domain.communicator.sum(of_points);
+  std::vector<double> of_elements = of_points;
+  double all = 0, other = 0;  // m³; `other`: of elements beside nodes of another stiffness
+  for (std::size_t p = 0; p < blocks; ++p) {
+    all += of_points[p];
+    const double here = materials::moduli_of(body.blocks[p].material.law).longitudinal();
+    for (std::size_t e = 0; e < blocks; ++e) {
+      const double there = materials::moduli_of(body.blocks[e].material.law).longitudinal();
+      of_elements[e] += taken[p * blocks + e], of_elements[p] -= taken[p * blocks + e];
+      if (std::abs(here - there) > alike * std::max(here, there)) other += taken[p * blocks + e];
+    }
+  }
+  std::string text;
+  if (other > worth_telling * all)
+    text = text_of("WARNING: ", std::setprecision(2), 100 * other / all,
+                   " % of the elements' volume has the stiffness of another block", reason);
+  for (const deck::Condition& condition : deck.conditions) {
+    const auto at = std::ranges::find(body.domain.cloud.block_names, condition.node_set);
+    const std::size_t k = at - body.domain.cloud.block_names.begin();
+    if (k == blocks || std::holds_alternative<RigidTool>(condition.kind) ||
+        std::holds_alternative<SymmetryPlane>(condition.kind))
+      continue;
+    if (std::abs(of_points[k] - of_elements[k]) <= worth_telling * of_elements[k]) continue;
+    text += text_of("WARNING: Boundary Conditions > ", condition.name, " acts on ", std::setprecision(3), of_points[k],
+                    " m³, and the elements of block '", condition.node_set, "' have ", of_elements[k], " m³", reason);
+  }
+  return text;
+}
+
 }  // namespace strut

@@ -45,4 +45,7 @@ std::array<int, 3> box_reach(const deck::Grid& grid, const deck::Block& section)
 // densities has the density of the first one. `taken`: PointCloud::taken_volumes.
 std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& taken);
 
+// The same where they have the stiffness of the first one, or a condition of one block acts on them or not.
+std::string conditions_at_shared_nodes(const deck::Deck& deck, const Body& body, const std::vector<double>& taken);
+
 }  // namespace strut

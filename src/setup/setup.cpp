@@ -174,7 +174,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
   scene.warnings += places_of_probes(deck, scene.body.domain);
   scene.highest_frequency = scale_masses(deck, scene.body, scene.warnings);
-  scene.warnings += mass_of_shared_nodes(scene.body, taken);
+  scene.warnings += mass_of_shared_nodes(scene.body, taken) + conditions_at_shared_nodes(deck, scene.body, taken);
   return scene;
 }
 

@@ -160,6 +160,8 @@ Solver read_one(const Values& values, Problems& problems) {
   }
   check_one_of(steps, fixed_dt, safety_factor, problems);
   check_one_of(steps, fixed_dt, scaled_dt, problems);
+  if (steps.given(most_added_mass) && !steps.given(scaled_dt))
+    problems.note(steps.path_to(most_added_mass), "has no effect without Mass Scaling dt");
   return solver;
 }
 

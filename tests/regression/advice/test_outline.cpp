@@ -319,6 +319,13 @@ TEST(Improbable, MillimetersThatAreTakenForMetersAreWarnedOf) {
     EXPECT_EQ(told_of_cubes(spacing, time).find("WARNING"), std::string::npos) << spacing;
 }
 
+// 96 m³ of copper: in equilibria, and where waves cross the body a thousand times.
+TEST(Improbable, MillimetersThatAreTakenForMetersAreWarnedOfInSlowRuns) {
+  const std::string told = "5 m long and weigh 8.573e+05 kg: are lengths of the mesh in m, not in mm?";
+  expect_told(told_of_cubes(1, "1"), {told});
+  EXPECT_EQ(told_of_cubes(1e-3, "1e-3").find("WARNING"), std::string::npos);
+}
+
 TEST(Improbable, SpeedsAboveTheWaveSpeedAreWarnedOf) {
   Parts parts = flying();
   for (const auto& [speed, warned] : {std::pair("-4500", false), std::pair("-4700", true)}) {

@@ -271,6 +271,23 @@ TEST(Contact, OfBondedBlocksIsToldWhereTheGapIsSmall) {
   EXPECT_FALSE(told(0, true));
 }
 
+// No contact is declared: blocks of 4 mm with a gap of half a cell would be one body; those that touch are meant to be
+// one, and those 2 mm apart are two.
+TEST(Contact, OfBlocksThatAreBondedAcrossAGapIsAskedFor) {
+  const auto told = [](double apart) {
+    const RunFolder folder;
+    Parts parts;
+    parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3"));
+    folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 4, 1e-3) + cubes(2, {0, 0, apart}, 4, 4, 4, 1e-3));
+    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world)
+        .warnings.find("are bonded to each other across the gap between them");
+  };
+  EXPECT_NE(told(4.5e-3), std::string::npos);
+  EXPECT_EQ(told(4e-3), std::string::npos);
+  EXPECT_EQ(told(6e-3), std::string::npos);
+}
+
 // Two lattices of unequal spacings on each other: ranks that have one of them each find the same parts.
 TEST(Contact, OfBondedBlocksOfUnequalSpacingsIsLookedFor) {
   const RunFolder folder;

@@ -316,6 +316,32 @@ TEST(Monitor, SurfaceThatIsPenetratedIsToldOfByItsOwnKeys) {
   EXPECT_EQ(stopped.error.find("Spring Constant"), std::string::npos) << stopped.error;
 }
 
+// Two cubes of 3 cells, pressed slowly. By 0.25 a contact gives way like four layers of cells, of which they have five
+// that strain; by 250 a thousandth of that.
+TEST(Monitor, SurfacesThatGiveWayMoreThanBodiesAreToldOfAtTheEnd) {
+  const RunFolder folder;
+  const auto told = [&](const std::string& factor) {
+    Parts parts = thrown(
+        folder, section("Models", section("m", key("Contact Model", "Surface") + key("Stiffness Factor", factor))) +
+                    section("Interactions", section("General Contact", key("Contact Model", "m"))));
+    folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, 1e-3) + cubes(2, {0, 0, 3e-3}, 3, 3, 3, 1e-3));
+    parts.node_sets = key("low", "z &lt; 1e-3") + key("high", "z &gt; 5e-3");
+    parts.conditions = along("hold", "Prescribed Displacement", "low", "xyz", "0") +
+                       along("press", "Prescribed Displacement", "high", "z", "-1e-5*t/5e-6") +
+                       along("guide", "Prescribed Displacement", "high", "xy", "0");
+    parts.times = key("Final Time", "5e-6");
+    parts.verlet = key("Number of Load Steps", "2");
+    const Outcome o = outcome(folder, parts, "QuasiStatic");
+    EXPECT_EQ(o.error, "");
+    return o.said;
+  };
+  const std::string soft = told("0.25"), text = "contact between surfaces held up to ";
+  if (folder.world.rank() != 0) return;
+  expect_words(soft, {text, "a Stiffness Factor "});
+  EXPECT_EQ(soft.find(text), soft.rfind(text)) << soft;
+  EXPECT_EQ(told("250").find(text), std::string::npos);
+}
+
 // A hairpin whose legs are driven together, and no contact.
 TEST(Monitor, BodyThatFoldsThroughItselfIsToldOf) {
   constexpr double h = 1e-3;

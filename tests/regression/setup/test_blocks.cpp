@@ -82,7 +82,7 @@ TEST(Blocks, OfThinMembersAreToldOfTheirResolution) {
   const std::string flows = told(3, "Quadratic Correspondence", plastic),
                     elastic = told(3, "Quadratic Correspondence", "");
   EXPECT_EQ(flows.find("block 'bar': members are "), 0) << flows;
-  EXPECT_NE(flows.find("; expect up to ±1"), std::string::npos) << flows;
+  EXPECT_NE(flows.find("; of struts expect up to ±1"), std::string::npos) << flows;
   EXPECT_NE(flows.find(" % in the plateau; tools/study --converge spacing"), std::string::npos) << flows;
   EXPECT_NE(flows.find("(some 3 times that where whole cells make stairs) and +"), std::string::npos) << flows;
   EXPECT_EQ(flows.find('\n'), flows.size() - 1) << "one line";
@@ -92,6 +92,29 @@ TEST(Blocks, OfThinMembersAreToldOfTheirResolution) {
                       "expect up to ±1"),
             std::string::npos);
   EXPECT_EQ(told(10, "Quadratic Correspondence", plastic), "");
+}
+
+// Four layers of cells between held or pressed ends: 1/4 for each end; nodes stand on the faces.
+TEST(Blocks, WhoseOuterCellsDoNotStrainAreToldOf) {
+  const auto told = [](const std::string& conditions, const std::string& points) {
+    const RunFolder folder(Lattice{.nz = 4});
+    Parts parts;
+    parts.points = points;
+    parts.conditions = conditions;
+    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+  };
+  const std::string held = along("held", "Prescribed Displacement", "foot", "xyz", "0"),
+                    tool = section("tool", key("Type", "Rigid Plane") + key("Point", "0 0 4e-3") +
+                                               key("Normal", "0 0 -1") + key("Travel Z", "-t"));
+  EXPECT_NE(told(held, "").find("block 'bar': about 4 layers along z, held or pressed at one end: "),
+            std::string::npos);
+  EXPECT_NE(told(held + tool, "").find("expect 50 % too much stiffness along z"), std::string::npos);
+  EXPECT_EQ(told(held + tool, "Nodes").find("too much stiffness"), std::string::npos);
+  const std::string turned = changed(changed(tool, "0 0 -1", "0 0 1"), "4e-3", "-4e-3");  // below the held cells
+  EXPECT_NE(told(held + turned, "").find("at one end"), std::string::npos);
+  EXPECT_EQ(told(along("all", "Prescribed Displacement", "all", "z", "0"), "").find("too much stiffness"),
+            std::string::npos)
+      << "a rigid body";
 }
 
 // A mesh may have a number twice, which is not two numbers, and some beyond those of an int.

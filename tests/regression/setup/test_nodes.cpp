@@ -139,5 +139,31 @@ TEST(Nodes, ThatBlocksOfTwoDensitiesShareAreToldOf) {
       << warnings("2700");
 }
 
+// The bar has half a layer of the plate's two, of 16e-9 m³ each: 8e-9 of 96e-9 m³.
+TEST(Nodes, ThatBlocksOfTwoModuliShareAreToldOf) {
+  const RunFolder folder(Lattice{.nz = 6, .plate_layers = 2});
+  const auto warnings = [&folder](const std::string& shear, const std::string& points) {
+    Parts parts;
+    parts.points = points;
+    parts.materials += changed(changed(copper(), "copper", "soft"), "117e9", shear);
+    parts.blocks.clear();
+    for (const auto& [block, material] : {std::pair("bar", "copper"), {"plate", "soft"}}) {
+      parts.blocks +=
+          section(block, key("Block Names", block) + key("Material", material) + key("Horizon Factor", "1.8"));
+    }
+    parts.conditions = along("flight", "Initial Velocity", "plate", "z", "1");
+    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+  };
+  const std::string stiffness = "8.3 % of the elements' volume has the stiffness of another block",
+                    condition =
+                        "Boundary Conditions > flight acts on 2.4e-08 m³, and the elements of block 'plate' "
+                        "have 3.2e-08 m³";
+  const std::string soft = warnings("20e9", "Nodes"), alike = warnings("117e9", "Nodes");
+  EXPECT_NE(soft.find(stiffness), std::string::npos) << soft;
+  EXPECT_NE(alike.find(condition), std::string::npos) << alike;
+  EXPECT_EQ(alike.find("stiffness of another"), std::string::npos) << alike;
+  EXPECT_EQ(warnings("20e9", "Elements").find("stands first in the mesh"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace strut::regression

@@ -384,6 +384,26 @@ TEST(Deck, HasDefaultIntervals) {
   EXPECT_DOUBLE_EQ(folder.read(history).history.interval.value(), 2e-7);
 }
 
+TEST(Deck, TellsOfAnIntervalLongerThanTheRun) {
+  const DeckFolder folder;
+  const std::string interval = R"(<Parameter name="Interval" type="double" value="1e-6"/>)";
+  const auto told = [](const Deck& deck) {
+    return std::ranges::count_if(deck.notes,
+                                 [](const std::string& note) { return note.find("the run lasts") != note.npos; });
+  };
+  const Deck longer = folder.read(changed(full_deck, interval, replaced(interval, "1e-6", "1")));
+  EXPECT_EQ(told(longer), 1);
+  EXPECT_EQ(told(folder.read(full_deck)), 0);
+}
+
+TEST(Deck, TellsOfALimitOfAddedMassWithoutMassScaling) {
+  const DeckFolder folder;
+  const std::string step = R"(<Parameter name="Fixed dt" type="double" value="1e-8"/>)",
+                    limit = R"(<Parameter name="Most Added Mass" type="double" value="0.1"/>)";
+  const std::vector<std::string> notes = folder.read(changed(full_deck, step, step + limit)).notes;
+  EXPECT_EQ(std::ranges::count(notes, "Solver > Verlet > Most Added Mass has no effect without Mass Scaling dt"), 1);
+}
+
 TEST(Deck, KeepsTheSuffixOfTheOutput) {
   const DeckFolder folder;
   EXPECT_EQ(folder.read(changed(full_deck, R"(value="bar"/>)", R"(value="bar.exo"/>)")).output.file, "bar.exo");
