@@ -135,7 +135,7 @@ std::string unstrained_ends(const Situation& situation) {
   std::map<int, std::string> names;  // of the blocks of each body
   for (std::size_t b = 0; b < domain.blocks.size(); ++b) {
     std::string& name = names[domain.blocks[b].body];
-    name += (name.empty() ? "block '" : ", '") + domain.cloud.block_names[b] + "'";
+    name += (name.empty() ? "'" : ", '") + domain.cloud.block_names[b] + "'";
   }
   std::ostringstream text;
   text.precision(2);
@@ -161,7 +161,8 @@ std::string unstrained_ends(const Situation& situation) {
       const int ends = (free[2 * axis] == 0 ? 1 : 0) + (free[2 * axis + 1] == 0 ? 1 : 0);
       const double layers = 1 + (most[2 * axis] + most[2 * axis + 1]) / most[sides];
       if (free[sides + axis] == 0 || ends < worth_saying * layers) continue;
-      text << name << ": about " << std::round(layers) << " layers along "
+      text << (name.find(',') == std::string::npos ? "block " : "blocks ") << name << ": about " << std::round(layers)
+           << " layers along "
            << "xyz"[axis] << ", held or pressed at " << (ends == 1 ? "one end" : "both ends")
            << ": points are in the middles of cells, and half a spacing at " << (ends == 1 ? "this end" : "each end")
            << " does not strain: expect " << 100 * ends / layers << " % too much stiffness along "
