@@ -501,7 +501,8 @@ TEST(Tools, ThatAreThickerThanNodesOfTetrahedraAreApartAreNotWarnedOf) {
   EXPECT_EQ(of_thick_tool.find("its cells are no cubes"), std::string::npos) << of_thick_tool;
 }
 
-// The lowest cells end 2 mm above the floor, which the bar reaches at 20 µs with 100 m/s: in the 43rd of 100 uneven parts.
+// The lowest cells end 2 mm above the floor, which the bar reaches at 20 µs with 100 m/s: in the 43rd of 100 uneven
+// parts.
 TEST(Tools, ThatAreApartFromAllPointsAreToldOf) {
   const std::string floor = key("Point", "0 0 -2e-3") + key("Normal", "0 0 1");
   const std::string flight = along("flight", "Initial Velocity", "all", "z", "-100");
