@@ -25,13 +25,13 @@ for ranks in 1 $others; do
     cat log
     exit 1
   fi
-  [ $ranks -eq 1 ] && grep -E ' steps, |subcycled|bonds broke' log
+  [ $ranks -eq 1 ] && grep -E ' steps, |subcycled|bonds are broken' log
   if { [ $name = fast ] || [ $name = cells ]; } && ! grep -qE 'subcycled' log; then
     echo "FAILED: no point of the bar $name is subcycled"
     exit 1
   fi
   case $name in breaking | softening | cracking | tearing | rending | snapping)
-    if ! grep -q 'bonds broke' log; then
+    if ! grep -q 'bonds are broken' log; then
       echo "FAILED: no bond broke"
       exit 1
     fi ;;

@@ -41,7 +41,7 @@ for name in bar silling fast cells mixed breaking cracking tearing rending snapp
   fi
   case $name in
     fast | cells) said $name subcycled ;;
-    breaking | cracking | tearing | rending | snapping) said $name 'bonds broke' ;;
+    breaking | cracking | tearing | rending | snapping) said $name 'bonds are broken' ;;
   esac
   case $name in bar | mixed) several="2 4" ;; *) several=4 ;; esac
   for threads in $several; do

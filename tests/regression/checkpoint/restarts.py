@@ -591,7 +591,7 @@ class Test:
         self.seconds[name] = time.monotonic() - began
         if name in ("impact", "cells") and "subcycled" not in log:
             self.fail("no point of the impact is subcycled", whole / "log")
-        if name in ("breaking", "tearing", "cracking") and "bonds broke" not in log:
+        if name in ("breaking", "tearing", "cracking") and "bonds are broken" not in log:
             self.fail("no bond broke", whole / "log")
         self.setup[name] = 0.1
         self.terminated(name, whole)
