@@ -99,7 +99,7 @@ void Couples::add_forces(const Domain& domain, const std::vector<Neighborhood>& 
     const Patch& patch = neighborhoods[k].patch;
     const int i = points_[k];
     twists_[i] = {patch.per_couple * couples[k], domain.current(i) + patch.middle};
-    if (twists_[i].turn.isZero(0)) continue;
+    if (may_break || twists_[i].turn.isZero(0)) continue;
     turned[i] = 1;
     domain.families.for_each(i, [&](int j) { turned[j] = 1; });
   }

@@ -61,7 +61,7 @@ Tensor axes_of(const Domain& domain, const MaterialBlock& block) {
 // blocks.
 int layers_of_plates(const Body& body, const MaterialBlock& block, const BlockHorizons& of_block) {
   const Domain& domain = body.domain;
-  const int reach = static_cast<int>(of_block.largest / of_block.spacing * (1 + 1e-9));
+  const int reach = static_cast<int>(of_block.largest / of_block.spacing * with_round_off);
   if (reach < 1) return 0;
   const int most = 2 * reach;
   const Tensor axes = axes_of(domain, block);

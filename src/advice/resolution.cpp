@@ -105,8 +105,8 @@ namespace {
 
 constexpr int sides = 6;  // lower and upper along each axis
 
-// Marks for each side which owned points a plane tool faces, or whose motion along the axis a condition prescribes, the
-// latter also in `moved` for each axis.
+// Collective. Marks for each side which owned points are the nearest to a plane tool that faces them, or whose motion
+// along the axis a condition prescribes, the latter also in `moved` for each axis.
 void mark_held(const Situation& situation, std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& moved) {
   constexpr double across = 0.999;  // component of a plane's normal along an axis
   situation.scene.conditions.visit([&](const PrescribedMotion& one) {
@@ -116,9 +116,17 @@ void mark_held(const Situation& situation, std::vector<std::uint8_t>& held, std:
   });
   situation.scene.conditions.visit([&](const RigidTool& tool) {
     const auto* plane = std::get_if<HalfSpace>(&tool.shape);
-    for (int side = 0; plane && side < sides; ++side) {
+    if (!plane) return;
+    const Domain& domain = situation.scene.body.domain;
+    const auto depth = [&](int i) { return -plane->normal.dot(domain.reference(i)); };
+    double deepest = std::numeric_limits<double>::lowest();
+    for (const int i : tool.points) deepest = std::max(deepest, depth(i));
+    deepest = domain.communicator.max(deepest);
+    for (int side = 0; side < sides; ++side) {
       if ((side % 2 == 0 ? 1 : -1) * plane->normal[side / 2] < across) continue;
-      for (const int i : tool.points) held[i] |= 1 << side;
+      for (const int i : tool.points) {
+        if (depth(i) > deepest - 0.5 * domain.cloud.spacings[i]) held[i] |= 1 << side;
+      }
     }
   });
 }
@@ -137,26 +145,32 @@ std::string unstrained_ends(const Situation& situation) {
     std::string& name = names[domain.blocks[b].body];
     name += (name.empty() ? "'" : ", '") + domain.cloud.block_names[b] + "'";
   }
+  if (!domain.communicator.any(std::ranges::any_of(held, [](std::uint8_t one) { return one != 0; }))) return "";
+  // Of each body: of the sides, outwards, and the spacing; points of the outer layers that nothing holds, and points
+  // that are not moved along each axis.
+  constexpr int extents = sides + 1, counts = sides + 3;
+  std::vector<double> all_most(extents * domain.body_count(), std::numeric_limits<double>::lowest());
+  std::vector<double> all_free(counts * domain.body_count(), 0);
+  const auto outwards = [&](int i, int side) { return (side % 2 == 0 ? -1 : 1) * domain.reference(i)[side / 2]; };
+  for (int i = 0; i < domain.owned; ++i) {
+    double* const most = &all_most[extents * domain.body_of(i)];
+    for (int side = 0; side < sides; ++side) most[side] = std::max(most[side], outwards(i, side));
+    most[sides] = std::max(most[sides], domain.cloud.spacings[i]);
+  }
+  domain.communicator.max(all_most);
+  for (int i = 0; i < domain.owned; ++i) {
+    const double* const most = &all_most[extents * domain.body_of(i)];
+    double* const free = &all_free[counts * domain.body_of(i)];
+    for (int side = 0; side < sides; ++side) {
+      if (outwards(i, side) > most[side] - of_layer * most[sides] && ((held[i] >> side) & 1) == 0) ++free[side];
+      if (side % 2 == 0 && ((moved[i] >> (side / 2)) & 1) == 0) ++free[sides + side / 2];
+    }
+  }
+  domain.communicator.sum(all_free);
   std::ostringstream text;
   text.precision(2);
   for (const auto& [body, name] : names) {
-    const auto is_of = [&, body = body](int i) { return domain.blocks[domain.cloud.blocks[i]].body == body; };
-    std::vector<double> most(sides + 1, std::numeric_limits<double>::lowest());  // of the sides, outwards; spacing
-    for (int i = 0; i < domain.owned; ++i) {
-      for (int side = 0; is_of(i) && side < sides; ++side)
-        most[side] = std::max(most[side], (side % 2 == 0 ? -1 : 1) * domain.reference(i)[side / 2]);
-      if (is_of(i)) most[sides] = std::max(most[sides], domain.cloud.spacings[i]);
-    }
-    domain.communicator.max(most);
-    std::vector<double> free(sides + 3, 0);  // points of the outer layers that nothing holds; points not moved
-    for (int i = 0; i < domain.owned; ++i) {
-      for (int side = 0; is_of(i) && side < sides; ++side) {
-        const double outwards = (side % 2 == 0 ? -1 : 1) * domain.reference(i)[side / 2];
-        if (outwards > most[side] - of_layer * most[sides] && ((held[i] >> side) & 1) == 0) ++free[side];
-        if (side % 2 == 0 && ((moved[i] >> (side / 2)) & 1) == 0) ++free[sides + side / 2];
-      }
-    }
-    domain.communicator.sum(free);
+    const double *most = &all_most[extents * body], *free = &all_free[counts * body];
     for (int axis = 0; axis < 3; ++axis) {
       const int ends = (free[2 * axis] == 0 ? 1 : 0) + (free[2 * axis + 1] == 0 ? 1 : 0);
       const double layers = 1 + (most[2 * axis] + most[2 * axis + 1]) / most[sides];
@@ -335,18 +349,19 @@ double off_lattice(const Domain& domain, int i) {
 }  // namespace
 
 std::string points_off_lattices(const Situation& situation) {
-  constexpr double worth_saying = 0.05;                             // stress a few percent off
-  constexpr std::size_t enough = 20000, corners_of_tetrahedra = 4;  // points of a block and rank
+  constexpr double worth_saying = 0.05;                            // stress a few percent off
+  constexpr std::size_t enough = 2000, corners_of_tetrahedra = 4;  // points of a block and rank
   const Body& body = situation.scene.body;
   const Domain& domain = body.domain;
   const auto& nodes = domain.cloud.shared_nodes;
   std::vector<std::vector<int>> off(body.blocks.size());
   std::vector<double> most(body.blocks.size(), 0);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (body.blocks[b].is_quadratic()) continue;
     const auto& points = body.blocks[b].points;
-    for (std::size_t k = 0; k < points.size() && !body.blocks[b].is_quadratic(); k += 1 + points.size() / enough) {
+    for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / enough) {
       const int i = points[k];
-      const bool is_told = domain.cloud.at == PointsAt::elements && !nodes.empty() &&
+      const bool is_told = !body.blocks[b].is_ordinary() && domain.cloud.at == PointsAt::elements && !nodes.empty() &&
                            nodes[i].size() == corners_of_tetrahedra;  // centers_of_tetrahedra()
       if (is_told || domain.families.lattice(i)) continue;
       const double found = off_lattice(domain, i);

@@ -157,7 +157,7 @@ std::vector<double> sample_times(std::vector<double> changes, double start, doub
   constexpr int samples = 64;  // evenly, and as many changes at most
   std::ranges::sort(changes);
   std::vector<double> times = thinned(changes, samples);
-  for (int k = 0; k <= samples; ++k) times.push_back(start + duration * k / samples);
+  std::ranges::copy(uneven_times(start, start + duration, samples), std::back_inserter(times));
   std::ranges::sort(times);
   return times;
 }

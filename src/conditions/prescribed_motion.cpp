@@ -72,12 +72,16 @@ std::vector<HeldDirection> PrescribedMotion::held_directions(const Body& body, d
   };
   const bool is_common = !value.depends_on_position() && !points.empty();
   const double common = is_common ? value_at(Vector::Zero()) : 0;
+  std::vector<double> displacements;
+  for (const int i : points) displacements.push_back(is_common ? common : value_at(body.domain.reference(i)));
   std::vector<HeldDirection> all;
-  for_each_component(*this, [&](int c, int i) {
-    const Vector X = body.domain.reference(i);
-    const double from = is_velocity ? body.current(i)[c] : X[c];
-    all.push_back({reaction_index, i, Vector::Unit(c), from + (is_common ? common : value_at(X))});
-  });
+  for (const int c : components) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const int i = points[k];
+      const double from = is_velocity ? body.current(i)[c] : body.domain.reference(i)[c];
+      all.push_back({reaction_index, i, Vector::Unit(c), from + displacements[k]});
+    }
+  }
   return all;
 }
 

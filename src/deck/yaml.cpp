@@ -206,11 +206,13 @@ std::size_t closing_quote(const std::string& line, std::size_t begin) {
 // The same for all values of a line, and items of lists; `brackets`: that are open. False if a quote does not close in
 // the line.
 bool quote_plain_values(std::string& line, std::string& brackets) {
-  char before = '-';  // the last character that is no blank
+  char before = brackets.empty() ? '-' : ',';  // the last character that is no blank
   const std::size_t dash = line.find_first_not_of(' ');
   const auto begins_value = [&](std::size_t i) {
     if (before == ':') return line[i - 1] == ' ';
-    if (brackets.empty()) return i > dash && before == '-' && line[dash] == '-' && line[i - 1] == ' ';
+    if (brackets.empty())
+      return i > dash && before == '-' && line[dash] == '-' && line[i - 1] == ' ' &&
+             line.find(": ", i) == std::string::npos;
     return brackets.back() == '[' && (before == '[' || before == ',');
   };
   for (std::size_t i = 0; i < line.size(); ++i) {

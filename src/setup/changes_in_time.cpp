@@ -40,7 +40,8 @@ double change_at_once(const OfTime& of_time, double from, const Steps& steps) {
 }  // namespace
 
 std::vector<double> thinned(const std::vector<double>& times, int most) {
-  const int stride = (static_cast<int>(times.size()) + most - 1) / most;
+  const int least = (static_cast<int>(times.size()) + most - 1) / most;
+  const int stride = least | 1;  // odd, as turns and the middles between them alternate
   std::vector<double> some;
   for (std::size_t n = 0; n < times.size(); n += stride) some.push_back(times[n]);
   return some;
@@ -82,9 +83,19 @@ std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end) {
   return jumps;
 }
 
-// By ternary search, and by its growth toward this time: a root's inverse grows by a factor of 32.
-std::optional<double> pole_of(const OfTime& of_time, double start, double end) {
+// By its growth toward this time: a root's inverse grows by a factor of 32.
+bool is_pole(const OfTime& of_time, double at, double apart) {
   constexpr double nearer = 1024, growth = 64;
+  const double near = std::max(1e-6 * apart, 1e7 * std::numeric_limits<double>::epsilon() * std::abs(at));
+  const auto beside = [&](double away) {
+    return std::fmax(std::abs(of_time(at - away)), std::abs(of_time(at + away)));
+  };
+  const double next_to_it = beside(near / nearer);
+  return next_to_it > growth * beside(near) || std::isinf(next_to_it);
+}
+
+// By ternary search, and where the value may turn, as a divisor does.
+std::optional<double> pole_of(const OfTime& of_time, double start, double end) {
   const double apart = (end - start) / samples_in_a_run;
   const auto size = [&of_time](double t) { return std::abs(of_time(t)); };
   double highest = start;
@@ -96,12 +107,10 @@ std::optional<double> pole_of(const OfTime& of_time, double start, double end) {
     const double low = from + (to - from) / 3, high = to - (to - from) / 3;
     (size(low) < size(high) ? from : to) = size(low) < size(high) ? low : high;
   }
-  const double at = 0.5 * (from + to);
-  const double near = std::max(1e-6 * apart, 1e7 * std::numeric_limits<double>::epsilon() * std::abs(at));
-  const auto size_beside = [&](double away) { return std::fmax(size(at - away), size(at + away)); };
-  const double next_to_it = size_beside(near / nearer);
-  if (next_to_it > growth * size_beside(near) || std::isinf(next_to_it)) return at;
-  return std::nullopt;
+  std::vector<double> suspects = of_time.value.turns(of_time.X, uneven_times(start, end, samples_in_a_run));
+  suspects.push_back(0.5 * (from + to));
+  const auto found = std::ranges::find_if(suspects, [&](double at) { return is_pole(of_time, at, apart); });
+  return found == suspects.end() ? std::nullopt : std::optional(*found);
 }
 
 Where where(const std::vector<int>& points, const Body& body) {

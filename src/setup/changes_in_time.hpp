@@ -1,4 +1,4 @@
-// When and where values of a deck change: their jumps, and the times that their texts name.
+// When and where values of a deck change: their jumps, and the times at which they turn.
 #pragma once
 
 #include <Eigen/Geometry>

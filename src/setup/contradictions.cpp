@@ -91,12 +91,13 @@ struct Interval {
 };
 using Times = std::vector<Interval>;
 
-// Equal intervals, which end also where values may turn or jump; load steps and their middles by themselves.
+// Intervals of about one length, which end also where values may turn or jump; load steps and their middles by
+// themselves.
 Times times_of(const deck::Solver& steps, const std::vector<double>& changes, int samples) {
   constexpr double at_once = 1e-9;  // of the run: no more than round-off in the time of a jump
   const double start = steps.initial_time, duration = steps.final_time - start;
   std::vector<double> ends = thinned(changes, samples);
-  for (int k = 0; k <= samples; ++k) ends.push_back(start + duration * k / samples);
+  std::ranges::copy(uneven_times(start, start + duration, samples), std::back_inserter(ends));
   std::ranges::sort(ends);
   Times times;
   for (std::size_t n = 1; n < ends.size(); ++n) {

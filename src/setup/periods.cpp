@@ -139,9 +139,8 @@ struct AtSides {
   double count = 0, alone = 0, facing = 0;
 };
 
-// Points without nodes: how many bonds cross the sides, how many points are nearest to a neighbor straight behind the
-// upper side, and how many of these are at another distance from it than from the one straight before it, where volumes
-// are as alike as these distances.
+// Points without nodes: how many bonds cross the sides; how many points have one neighbor straight behind the upper
+// side and one straight before them; for how many of these the two distances differ more than the volumes do.
 struct Columns {
   double crossing = 0, count = 0, off = 0;
   double gap = 0, layer = 0;  // m, both distances where they differ most
@@ -151,7 +150,6 @@ Columns columns_at(const Domain& domain, const std::vector<Vector>& shifts, int 
   constexpr double straight = 1e-2, most = 0.05;
   Columns found;
   for (int i = 0; i < domain.owned; ++i) {
-    if (!domain.cloud.shared_nodes.empty() && !domain.cloud.shared_nodes[i].empty()) continue;
     double gap = HUGE_VAL, layer = HUGE_VAL, behind = 0, before = 0;  // m and m³
     domain.families.for_each(i, [&](int j) {
       const Vector xi = domain.reference(j) - domain.reference(i);
@@ -179,9 +177,9 @@ std::string gaps(const std::string& path, const Domain& domain, const std::vecto
   ranks.max(most), ranks.sum(sums);
   if (sums[0] == 0) return "WARNING: " + path + ": no bond crosses its sides; expected sides at the ends of the mesh\n";
   if (!(sums[2] > 0.5 * sums[1])) return "";
-  return text_of("WARNING: ", path, ": ", sums[2], " points are up to ", most[0],
-                 " m away from the one behind the side, ", "and ", most[1],
-                 " m from the one before it; expected Upper − Lower as large as the mesh with its cells\n");
+  return text_of("WARNING: ", path, ": ", sums[2],
+                 " points are not as far from the one behind the side as from the one before it (", most[0], " and ",
+                 most[1], " m where these differ most); expected Upper − Lower as large as the mesh with its cells\n");
 }
 
 }  // namespace

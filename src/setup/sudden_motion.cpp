@@ -292,7 +292,7 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
                              : ": reaches ")
            << missed.value << " at t = " << missed.time << " s, between two load steps, and " << missed.before
            << " and " << missed.after << " at these: "
-           << (rate_counts ? "equilibria follow the straight line between these, and a material depends on its rate"
+           << (rate_counts ? "equilibria follow the straight line between these, and a material may depend on its rate"
                            : "the equilibria do not see it")
            << "; is it meant, with " << load_steps << " load steps?\n";
     }

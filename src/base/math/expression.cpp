@@ -58,6 +58,12 @@ double combined(Do what, double a, double b) {
   }
 }
 
+constexpr std::size_t most_searched_rows = 1000;  // each costs some 60 evaluations
+
+int row_of(const LookUp& table, double argument) {
+  return static_cast<int>(std::ranges::upper_bound(table.arguments, argument) - table.arguments.begin());
+}
+
 class Machine {
  public:
   Machine(double x, double y, double z, double t, const std::vector<LookUp>& tables)
@@ -104,14 +110,16 @@ class Machine {
 
   double value() const { return variables_[static_cast<int>(Given::value)]; }
 
-  // The same, and the sign of the result: of the difference of two arguments, and odd if truncated, so that it changes
-  // where min, max and truncation do.
+  // execute(one). Also sets `sign`, which changes where the expression may turn: the sign of the result; of functions
+  // of two arguments (min, max), of their difference; of truncation, of its remainder by 2; of a table, the row.
   int execute(const Instruction& one, int& sign) {
     const auto sign_of = [](double a) { return (a > 0 ? 1 : 0) - (a < 0 ? 1 : 0); };
     const bool compares = one.what == Do::call && math_functions()[one.index].arguments == 2;
     if (compares) sign = sign_of(stack_[height_ - 2] - stack_[height_ - 1]);
+    const bool looks_up = one.what == Do::look_up && tables_[one.index].arguments.size() <= most_searched_rows;
+    if (looks_up) sign = row_of(tables_[one.index], stack_[height_ - 1]);
     const int skipped = execute(one);
-    if (compares || height_ == 0) return skipped;
+    if (compares || looks_up || height_ == 0) return skipped;
     const double result = stack_[height_ - 1];
     sign = sign_of(one.what == Do::truncate ? std::fmod(result, 2) : result);
     return skipped;
@@ -154,7 +162,12 @@ double Expression::operator()(double x, double y, double z, double t) const {
 std::vector<double> Expression::turns(double x, double y, double z, const std::vector<double>& samples) const {
   constexpr int not_executed = 2;
   std::vector<double> found;
-  for (const LookUp& table : tables_) found.insert(found.end(), table.arguments.begin(), table.arguments.end());
+  for (const LookUp& table : tables_) {  // of longer tables all rows in the interval, as if t were their argument
+    const auto& rows = table.arguments;
+    if (rows.size() <= most_searched_rows) continue;
+    found.insert(found.end(), std::ranges::lower_bound(rows, samples.front()),
+                 std::ranges::upper_bound(rows, samples.back()));
+  }
   using Signs = std::vector<int>;
   const auto signs_at = [&](double t) {
     Machine machine(x, y, z, t, tables_);

@@ -27,7 +27,7 @@ std::vector<double> telling_times(const Function& value, const Vector& X, double
   times.insert(times.end(), turns.begin(), turns.end());
   for (std::size_t n = 1; n < turns.size(); ++n) times.push_back(std::midpoint(turns[n - 1], turns[n]));
   for (std::size_t n = 0; few && n < turns.size(); ++n) {
-    for (double beside = 0.1; beside > 1e-5; beside *= 0.1) {
+    for (const double beside : {1e-1, 1e-2, 1e-3, 1e-4}) {
       for (const double side : {-beside, beside}) times.push_back(turns[n] + side * (to - from) / parts);
     }
   }

@@ -65,7 +65,7 @@ struct CandidatePool {
 
   // A point on a symmetry plane, with the computed half of its cell, coincides with its image.
   bool is_own_image(int i, int j, const Vector& xi) const {
-    constexpr double most = 6 * on_plane;  // of an edge of the cell's part before two planes or three
+    constexpr double most = 12 * on_plane;  // of an edge of the cell's part before two planes or three
     return ids[i] != ids[j] && Images::original(ids[i]) == Images::original(ids[j]) &&
            xi.norm() < most * std::cbrt(volumes[i]);
   }

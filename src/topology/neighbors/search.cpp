@@ -78,7 +78,7 @@ class SharedNodes {
   void for_each_image_at(int body, const Vector& X, double spacing, int image, const Visit& visit) const {
     const Images& images = mirrored_.images;
     const auto look_at = [&](int one) {
-      if ((images[one](X) - images[image](X)).norm() < 4 * on_plane * spacing) visit(one);
+      if ((images[one](X) - images[image](X)).norm() < 6 * on_plane * spacing) visit(one);
     };
     look_at(0);
     for (const int one : images.of_body(body)) look_at(one);
