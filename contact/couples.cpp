@@ -92,7 +92,8 @@ Couples::Neighborhood Couples::of(const Kinematics& kinematics, int i, double ar
 void Couples::add_forces(const Domain& domain, const std::vector<Neighborhood>& neighborhoods,
                          const std::vector<Vector>& couples, std::vector<Vector>& force_density) {
   if (!any_) return;
-  // In the neighborhood of an owned point with a couple: few are. A bond that breaks may be there from one end only.
+  // The few points in the neighborhood of an owned point with a couple. If bonds may break, add_forces() visits all: a
+  // bond may break at one end first.
   std::vector<char> turned(twists_.size(), 0);
   const bool may_break = !domain.families.broken.empty();
   for (std::size_t k = 0; k < points_.size(); ++k) {

@@ -32,7 +32,7 @@ Instant instant(const Hyperelastic& law, const Vector& stretches, double J) {
 
 Symmetric congruent(const Tensor& A, const Symmetric& s) { return symmetric_part(A * to_tensor(s) * A); }
 
-// What the history of relaxation needs of a stretch.
+// Stress and strain at a stretch, in the frame in which the branches relax.
 struct Referred {
   Symmetric stress, strain;  // S̃₀, Pa; Ē = ½ (J^(−2/3) U² − 1)
   double energy = 0;         // without relaxation, J/m³
@@ -52,8 +52,8 @@ Referred at_start(const Hyperelastic& law, const Hyperelastic::State& state) {
   return referred(law, U, J, from_principal(then.deviator, stretch.axes), then.energy);
 }
 
-// v of a quantity s that moves from a to b in a step as ṡ = const − s/t_k, x = Δt/t_k: the mean of s is
-// ½ (a + b) + x v (b − a), that of s² the square of this and v (b − a)².
+// v(x), x = Δt/t_k, gives means over a step in which s goes from a to b by ṡ = const − s/t_k: the mean of s is
+// m = ½ (a + b) + x v (b − a), the mean of s² is m² + v (b − a)².
 double variance(double x) {
   constexpr double small = 0.1;  // below it the series errs by less than the round-off of the closed form
   if (x < small) return 1.0 / 12 - x * x / 720 + x * x * x * x / 30240;
@@ -109,8 +109,8 @@ PointStress Hyperelastic::step(const PointStep& step, const Symmetric& stress, S
     const double secant = now.energy > measurable * shear() ? double_dot(fast, fast) / (4 * now.energy) : shear();
     const Branches branches = moved_on(*this, step, after.stress - before.stress, secant, next);
     kirchhoff = kept() * fast + branches.carried;
-    // The work of the instant law less ∫ Σ γ_k (S̃₀ − h_k) : dĒ, which relaxation has taken from its stress. Not the
-    // work of the forces of the step: the balance of energy is to show how far that is off in coarse load steps.
+    // The work of the instant law less ∫ Σ γ_k (S̃₀ − h_k) : dĒ, the part that relaxation has taken from its stress. It
+    // differs from the work of the forces in coarse load steps, so that the balance of energy shows their error.
     const Symmetric relaxed = 0.5 * (1 - kept()) * (before.stress + after.stress) - branches.mean;
     const double work = after.energy - before.energy - double_dot(relaxed, after.strain - before.strain);
     next.dissipated = state.dissipated + branches.damped;

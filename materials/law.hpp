@@ -13,10 +13,10 @@
 //   moduli            the elastic moduli of the Cauchy stress, which bound the critical time step; with the state as
 //                     an argument if they change.
 //   elastic_energy    stored energy, J per m³ of current volume.
-//   dissipation       energy dissipated so far, J per m³ of reference volume; the ledger of a run adds up both.
+//   dissipation       energy dissipated so far, J per m³ of reference volume.
 //   equivalent_stress the stress that is compared with the flow stress, Pa.
 //   flow_stress       the equivalent stress at which the point yields, Pa; infinity if it never yields.
-//   plastic_strain    optional, for laws with plastic work: the strain whose increments times flow_stress it adds up.
+//   plastic_strain    optional, for laws with plastic work: its rate times flow_stress is the power of that work.
 //   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever
 //                     flowed or softened. The integration points of its cell then get their mean change of volume
 //                     (volumetric locking: src/mechanics/formulation/quadratic.md).

@@ -72,8 +72,8 @@ namespace {
 
 Vector bond(const Domain& domain, int i, int j) { return domain.reference(j) - domain.reference(i); }
 
-// Layers of one lattice, or of two matching lattices, are never that many spacings apart. Of elements without a common
-// node a smaller distance tells.
+// Layers of one lattice, or of two matching lattices, are never that many spacings apart. Elements without a common
+// node are separate from a smaller distance on.
 constexpr double gap_of_points = 1.25, gap_of_elements = 1.02;
 
 // The edges of the cell of an owned point along the axes, m, if it is one of a lattice along these, whose steps then

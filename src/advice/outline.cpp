@@ -176,12 +176,11 @@ std::string springs_of_elastomers(const Situation& situation) {
     const double fitting = usual_coefficient(relaxed, material.stabilization, false) * relaxed.moduli().longitudinal() /
                            elastomer->moduli().longitudinal();
     if (given > stiff * fitting && relaxed.shear() < elastomer->shear()) {
-      text
-          << "WARNING: block '" << block.name << "': its elastomer relaxes to " << relaxed.shear() / elastomer->shear()
-          << " of its shear modulus in the run, but the springs of its "
-          << "stabilization do not relax: loaded slowly it is too stiff (blocks with the default springs by 4 to 8 % "
-          << "at 0.5, 14 to 20 % at 0.2, 30 to 130 % at 0.05); expected Formulation 'Quadratic Correspondence', or for "
-          << "slow loads a Stabilization Coefficient of " << fitting << '\n';
+      text << "WARNING: block '" << block.name << "': its elastomer relaxes to " << relaxed.shear() / elastomer->shear()
+           << " of its shear modulus in the run, but the springs of its "
+           << "stabilization do not relax: loaded slowly it is too stiff (blocks with the default springs by 4 to 8 % "
+           << "if it relaxes to 0.5, 14 to 20 % if to 0.2, 30 to 130 % if to 0.05); expected Formulation 'Quadratic "
+           << "Correspondence', or for slow loads a Stabilization Coefficient of " << fitting << '\n';
     }
     if (given >= soft * fitting) continue;
     text << "WARNING: block '" << block.name << "': its elastomer has a Stabilization Coefficient of " << given

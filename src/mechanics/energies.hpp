@@ -33,12 +33,12 @@ double work_of_expansion(const Body& body);
 // Collective: sums over all ranks. Call it after a stress update with diagnostics.
 Energies stored_energies(const Body& body);
 
-// Collective, likewise. Of each body of the domain alone, without the energies of expansion and of broken bonds.
+// Collective, likewise: a sum for each body of the domain, without the energies of expansion and of broken bonds.
 std::vector<Energies> stored_energies_of_bodies(const Body& body);
 
-// How much more the flow stress has done along the plastic strain since `start` than laws count, on this rank, J: they
-// take the mean of the stress at both ends of a step, which is too little where a step begins far below yield, and none
-// where it leads from tension at yield to compression at yield.
+// The plastic work since `start` that laws have not counted, J on this rank: the work of the flow stress along the
+// plastic strain less the counted work. Laws take the mean stress of both ends of a step: too little where it begins
+// far below yield, next to nothing where it leads from tension at yield to compression at yield.
 double missed_plastic_work(const Body& body, const Committed& start);
 
 }  // namespace strut

@@ -413,18 +413,18 @@ void Monitor::check_springs(double time) {
   const Domain& domain = body_.domain;
   const auto block = std::ranges::find(domain.blocks, worst, &BlockHorizons::body) - domain.blocks.begin();
   warn(springs,
-       text_of(at(time), "the springs of the stabilization hold ", 100 * most, " % of what the body of block ",
-               domain.cloud.block_names[block],
+       text_of(at(time), "the springs of the stabilization hold ", 100 * most,
+               " % of the energy that the body of block ", domain.cloud.block_names[block],
                " has taken up; up to 10 % is usual. The motion is finer than the points resolve: expect "
                "wrong stresses. Likely causes: too few points, metal that is too soft to hold together, another "
                "Stabilization Coefficient than the default"));
 }
 
-// Springs in series have one force, so each has the part of the shortening that it has of the stored energy. Of what
-// flows it has up to twice that part.
+// Springs in series have one force, so each has the part of the shortening that it has of the stored energy. In a
+// body that flows contact has up to twice that part.
 void Monitor::check_soft_contact(const Ledger& ledger, const contact::Contact& contact, bool last, Steps steps) {
   constexpr double slow = 0.05;          // kinetic over internal energy: as users of explicit finite elements accept
-  constexpr double worth_saying = 0.05;  // of the shortening: the least error of thin members that is told, too
+  constexpr double worth_saying = 0.05;  // of the shortening; warnings of thin members begin there, too
   if (!contact.any()) return;
   const double stored = body_.domain.communicator.sum(contact.energy_of_surfaces());
   const double internal = stored + ledger.elastic + ledger.dissipated + ledger.stabilization;

@@ -85,7 +85,7 @@ class Monitor {
   void check_stretch(double time);
 
   deck::Watch limits_;
-  double pause_;   // s, a part of the run's duration
+  double pause_;   // s, the run's duration over `checks`
   double dt_ = 0;  // s, of the last step; none in equilibria
   // s
   double next_interpenetration_ = std::numeric_limits<double>::lowest(), next_undeclared_ = next_interpenetration_,

@@ -178,7 +178,7 @@ std::string gaps(const std::string& path, const Domain& domain, const std::vecto
   if (sums[0] == 0) return "WARNING: " + path + ": no bond crosses its sides; expected sides at the ends of the mesh\n";
   if (!(sums[2] > 0.5 * sums[1])) return "";
   return text_of("WARNING: ", path, ": ", sums[2],
-                 " points are not as far from the one behind the side as from the one before it (", most[0], " and ",
+                 " points are not as far from the neighbor behind the side as from the one inside (", most[0], " and ",
                  most[1], " m where these differ most); expected Upper − Lower as large as the mesh with its cells\n");
 }
 
@@ -226,7 +226,7 @@ std::string open_sides(const deck::Deck& deck, const Domain& domain) {
     if (any_quadratic && all.facing > 0.5 * (all.count - all.alone)) {  // a staircase has fewer
       warnings +=
           text_of("WARNING: ", path, ": ", all.facing, " of ", all.count,
-                  " partly filled elements at a side bring surfaces that face it, though the body goes on there: "
+                  " partly filled elements at a side have surfaces that face it, though the body goes on behind it: "
                   "their mesh was not made to repeat; quadratic correspondence is less accurate in them\n");
     }
     if (all.alone == 0) continue;

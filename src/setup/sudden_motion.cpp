@@ -294,7 +294,7 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
            << " and " << missed.after << " at these: "
            << (rate_counts ? "equilibria follow the straight line between these, and a material may depend on its rate"
                            : "the equilibria do not see it")
-           << "; is it meant, with " << load_steps << " load steps?\n";
+           << "; are " << load_steps << " load steps enough?\n";
     }
   }
   return text.str();

@@ -10,8 +10,8 @@
 
 namespace strut {
 
-// Nodes are on a plane from this near on, in spacings: so are coordinates in single precision, and those that a normal
-// of three digits misses by a little.
+// Nodes nearer to a plane than this, in spacings, count as on it: coordinates in single precision, and normals of three
+// digits, are a little off.
 constexpr double on_plane = 0.01;
 
 // A plane behind which a body continues as its mirror image.
@@ -36,7 +36,7 @@ struct Period {
 
 // The number of a shared node (cloud.hpp) at X, with the bits of the mirrors that it lies on. On periodic sides, shared
 // nodes that are images of each other have one number; those on an upper side have its bit, those on a lower one the
-// bit `lower_side` places on. `spacing`: in m.
+// bit that is `lower_side` higher. `spacing`: in m.
 std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vector<Mirror>& planes, double spacing);
 constexpr int lower_side = 3;
 

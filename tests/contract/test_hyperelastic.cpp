@@ -152,7 +152,7 @@ TEST(Hyperelastic, RelaxesWhileItsAxesTurn) {
 
 // Sheared at a constant rate ε̇ for 1 s, in one step and in more, with times of relaxation from a thousandth of a step
 // to a thousand steps: per branch s = 2G ε̇ t_k (1 − e^(−t/t_k)), energy s²/(2G), dissipation 4G ε̇² t_k ∫ (1 −
-// e^(−t/t_k))². Of first order in the strain, 1e-5.
+// e^(−t/t_k))². They are of first order in the strain, 1e-5.
 TEST(Hyperelastic, RampsAreTheClosedFormInStepsOfAnyLength) {
   constexpr double rate = 1e-5, fraction = 0.95;
   for (const double time : {1e-3, 0.02, 0.1, 1.0, 1e3}) {

@@ -65,7 +65,8 @@ def size_of(path, block):
 
 
 def box_of(cells, whole):
-    """Of partly filled cells, each face is at the median of the ends of the material in the cells adjacent to it."""
+    """Both corners of the box around some cells, m. If they are partly filled, each face is at the median of the ends of the material
+    in the cells adjacent to it."""
     low, high = cells.low.min(axis=0), cells.high.max(axis=0)
     box = [low.copy(), high.copy()]
     for c in range(3 if cells.are_partly_filled and not whole else 0):

@@ -161,7 +161,7 @@ def late_begin(deck, times):
     """Words on a history that lacks the beginning of its run; None if it has it."""
     if deck is None or deck.section("Start From") is not None or times[0] - initial_time(deck) <= 1e-9 * (times[-1] - times[0]):
         return None
-    return f"begins at t = {times[0]:g} s, later than the run, at {initial_time(deck):g} s: the energy absorbed before is left out"
+    return f"begins at t = {times[0]:g} s, later than the run, at {initial_time(deck):g} s: the energy that the sample absorbed between the two is left out"
 
 
 def taken_off(deck, value):
@@ -269,7 +269,7 @@ def shortening(deck, table, axis, words):
 
 
 def unstrained(deck, block, axis, height, how):
-    """What part of the height a motion of outer points leaves unstrained; None if it moves nodes, or sides. The distance
+    """Words on the part of the height that a motion of outer points leaves unstrained; None if it moves nodes, or sides. The distance
     of layers is corrected for it. By virtual work the force on the outer points, over the area, exceeds the mean stress by the
     height over the strained part of it."""
     if not how.startswith(("Mean_Displacement", "the motion")) or (deck and deck.get("Discretization", "Points") == "Nodes"):

@@ -20,7 +20,8 @@ struct Section {
   double area(int i, int j) const;  // of a cell
 };
 
-// The number of cells across that hold all centers within the radius of the axis, which is at a center or at a corner.
+// The number of cells across a square that holds all cells with centers within the radius; the axis is at a center or a
+// corner of cells.
 int cells_across(double radius, double spacing, Body::Centered centered);
 
 // Squares of the spacing with their centers within the radius; the axis is at a center, or at a corner of four.

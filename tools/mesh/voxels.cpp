@@ -49,12 +49,14 @@ void add_to_sets(io::Mesh& mesh, int number, const Triple& at, const Triple& las
 io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid,
                     const std::function<Vector(const Triple&)>& place) {
   io::Mesh mesh = empty_mesh();
-  const VoxelGrid corners{grid.size, grid.cells + 1};
-  std::vector<int> numbers(corners.count(), -1);  // as the corners occur
+  const std::ptrdiff_t row = grid.cells[0] + 1, layer = row * (grid.cells[1] + 1);
+  std::vector<int> numbers(2 * layer, -1);  // as the corners occur; of the two layers of corners of a layer of voxels
+  int top = 1;                              // the upper one
   for (const int voxel : voxels) {
+    for (; top <= grid.cell(voxel)[2]; ++top) std::fill_n(numbers.begin() + (top + 1) % 2 * layer, layer, -1);
     for (const Triple& corner : hexahedron_corners) {
       const Triple at = grid.cell(voxel) + corner;
-      int& number = numbers[corners.index(at[0], at[1], at[2])];
+      int& number = numbers[at[2] % 2 * layer + at[1] * row + at[0]];
       if (number < 0) {
         number = static_cast<int>(mesh.nodes.size());
         mesh.nodes.push_back(place(at));

@@ -58,8 +58,8 @@ void add_to_sets(io::Mesh& mesh, int number, const Eigen::Array3i& at, const Eig
 inline const std::array<Eigen::Array3i, 8> hexahedron_corners = {
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
-// Hexahedra; node sets zmin, zmax, xmin, xmax, ymin, ymax on the faces of the box, all without names. `place`: of a
-// corner (0 to grid.cells along each axis), m.
+// Hexahedra of voxels, whose indices ascend; node sets zmin, zmax, xmin, xmax, ymin, ymax on the faces of the box, all
+// without names. `place` returns the position, m, of a corner (0 to grid.cells along each axis).
 io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid,
                     const std::function<Vector(const Eigen::Array3i&)>& place);
 io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid);

@@ -22,8 +22,8 @@ class Tool:
         self.flight = None
         if self.mass is not None:  # its path follows from the forces on it in the deck's history
             if self.deck.section("Start From") is not None:
-                print(f"the tool '{name}' is drawn as it begins anew, where the deck has it: after Start From with the same conditions, whose steps "
-                      "go on, it is elsewhere")
+                print(f"the tool '{name}' is drawn as if it began where the deck has it; it is elsewhere if the steps of the run before go on (Start From with "
+                      "the same conditions)")
             table = history(self.deck.get("History", "Filename", default="a History, which this tool needs,"))
             self.flight = table["Time"], [self._way(c, table["Time"], table) for c in "XYZ"]
 

@@ -252,10 +252,9 @@ py::dict sets_of(const io::Mesh& mesh) {
 
 class PythonRun {
  public:
-  // `described`: an object with write(text) and flush(), which gets the output of the run. Only rank 0's mesh is used.
-  PythonRun(const std::string& text, const std::string& name, const io::Mesh* mesh, bool continues,
-            py::object described)
-      : ranks_(world()), output_(std::move(described)) {
+  // `output`: an object with write(text) and flush(), which gets the output of the run. Only rank 0's mesh is used.
+  PythonRun(const std::string& text, const std::string& name, const io::Mesh* mesh, bool continues, py::object output)
+      : ranks_(world()), output_(std::move(output)) {
     working([&] {
       deck::Problems problems;
       deck::Deck deck = deck::read_text(text, name, ranks_, problems);

@@ -236,7 +236,8 @@ def value_at(expression, t):
 
 
 def integrals(expression, begin, times):
-    """The integrals of a deck's expression of the time alone from a time to each of others, which rise, s; None as value_at()."""
+    """The integral over time of a deck's expression of t alone from `begin` to each of `times` (s, in order); None if it needs a place,
+    or one is not finite."""
     try:
         parts = [answer(f"integral {float(a)!r} {float(b)!r}", expression) for a, b in zip([begin, *times], times)]
     except NoExpression:

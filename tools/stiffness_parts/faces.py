@@ -42,13 +42,13 @@ class Sample:
         return axis, depth, np.where(self.halves[:, axis] > 0.5 * edge * (1 - 1e-6), 0.55 * edge, edge)
 
     def thickness(self, face):
-        """Of a layer at a face: the median edge of the elements there, 0 without any."""
+        """The thickness of the layer at a face, m: the median edge of the elements there, 0 without any."""
         axis, depth, reach = self.measured(face)
         there = self.edges[depth < reach, axis]
         return np.median(there) if len(there) else 0.0
 
     def behind(self, members, axis, depth):
-        """Those of the members that have another one in front of more than their center."""
+        """The members whose center another member covers, seen from the face."""
         if not len(members):
             return members
         places, halves = np.delete(self.places[members], axis, 1), np.delete(self.halves[members], axis, 1)

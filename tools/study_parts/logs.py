@@ -6,7 +6,7 @@ NUMBER = re.compile(r"(?<![\w.])[-+]?\d[\d.,]*(?:e[-+]?\d+)?")
 
 
 def text_of(path):
-    """What a log says so far; nothing if there is none."""
+    """The text of a log so far; empty if there is none."""
     try:
         with open(path, errors="replace") as file:
             return file.read()

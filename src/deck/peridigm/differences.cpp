@@ -79,8 +79,8 @@ class Differences {
     problems_.note("Blocks",
                    "have horizons of their own: points of two of them are neighbors below the mean of both, and feel "
                    "each other's forces; in Peridigm each takes those within its own horizon, which reaches half the "
-                   "difference of both farther, or less far. Points as far apart as a "
-                   "horizon, to 1e-4 of it, are neighbors here");
+                   "difference of both farther, or less far. Points are neighbors here up to "
+                   "1.0001 horizons");
   }
 
   // Steps of the motion: where they end, and which of them have frames.

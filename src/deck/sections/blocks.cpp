@@ -21,7 +21,7 @@ const OptionalKey<double> horizon(
      .unit = "m",
      .range = positive,
      .meaning =
-         "δ: points i and j are neighbors when they are closer than (δ_i + δ_j)/2. Either this or Horizon Factor."});
+         "δ: points i and j are neighbors up to the distance 1.0001 (δ_i + δ_j)/2. Either this or Horizon Factor."});
 
 const OptionalKey<double> horizon_factor(
     {.name = "Horizon Factor",

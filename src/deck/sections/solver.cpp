@@ -26,7 +26,8 @@ const IntegerKey load_steps({.name = "Number of Load Steps",
 const RealKey tolerance({.name = "Tolerance",
                          .range = {.low = 0, .high = 1, .with_low = false, .with_high = false},
                          .fallback = "1e-6",
-                         .meaning = "Largest residual force over reactions, loads and contact forces."});
+                         .meaning = "Residual force over reactions, loads and contact forces, in each piece that bonds "
+                                    "connect."});
 
 const IntegerKey most_iterations({.name = "Maximum Solver Iterations",
                                   .range = {.low = 1},

@@ -80,7 +80,7 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
   if (std::isinf(longest)) {
     throw Error(
         "Solver > Verlet: nothing limits the time step: no point has neighbors or touches another, or stiffness is "
-        "nothing beside the Density; expected a Fixed dt");
+        "negligible beside the Density; expected a Fixed dt");
   }
   const double count = std::min(left / longest * (1 - round_off), (left - round_off_at(final_time)) / longest);
   dt_ = left / std::max(std::ceil(count), 1.0);

@@ -404,8 +404,9 @@ TEST(PeriodicContact, ThatIsTooSoftIsSeenBehindAnySide) {
   }
 }
 
-// Layers of 4 mm along x that are one piece. Of three in a period of 12 mm, the first and the last are bonded through
-// the side; two in a period of 12 mm, bonded to each other in the cell, leave 4 mm between the second and an image.
+// Layers of 4 mm along x that are one piece. If there are three in a period of 12 mm, the first and the last are
+// bonded through the side; two in a period of 12 mm, bonded to each other in the cell, leave 4 mm between the second
+// and an image.
 TEST(PeriodicContact, IsMissedByBlocksThatNoSideBonds) {
   for (const bool bonded : {true, false}) {
     const RunFolder folder;
@@ -567,7 +568,8 @@ TEST(PeriodicSides, TellWhereTheyDoNotContinueTheMesh) {
     }
   }
   EXPECT_NE(told(true, "0", "4.2e-3").find(path + "24 points"), std::string::npos) << told(true, "0", "4.2e-3");
-  EXPECT_NE(told(true, "-5e-4", "4e-3").find("5 m away from the one behind"), std::string::npos)
+  EXPECT_NE(told(true, "-5e-4", "4e-3").find("neighbor behind the side as from the one inside (0.0005"),
+            std::string::npos)
       << told(true, "-5e-4", "4e-3");
   EXPECT_NE(told(true, "0", "7e-3").find(path + "no bond crosses its sides"), std::string::npos);
 }

@@ -278,7 +278,7 @@ TEST(Monitor, NumbersBeyondAllReasonAreToldForWhatTheyAre) {
     parts.conditions = along("flight", "Initial Velocity", "all", "z", speed);
     return outcome(folder, parts).error;
   };
-  expect_words(error("1e300", "1"), {"nothing limits the time step", "or stiffness is nothing beside the Density"});
+  expect_words(error("1e300", "1"), {"nothing limits the time step", "or stiffness is negligible beside the Density"});
   expect_words(error("1e-300", "1"), {"Solver > Verlet: steps of", "less stiffness beside the Density"});
   expect_words(error("8930", "1e308"), {"energies are too large for a number", "a speed"});
 }
@@ -674,7 +674,7 @@ TEST(Monitor, TellsOfSpringsThatHoldMuchOfOneBody) {
   parts.times = key("Final Time", "2e-6");
   const std::string said = outcome(folder, parts).said;
   if (folder.world.rank() == 0)
-    expect_words(said, {"the springs of the stabilization hold ", " % of what the body of block block_1 "});
+    expect_words(said, {"the springs of the stabilization hold ", " % of the energy that the body of block block_1 "});
 }
 
 }  // namespace

@@ -242,8 +242,7 @@ TEST(DeckOfPeridigm, KeysWithoutEffectAreTold) {
   for (const std::string note :
        {"Blocks have horizons of their own: points of two of them are neighbors below the mean of "
         "both, and feel each other's forces; in Peridigm each takes those within its own horizon, which reaches half "
-        "the difference of both farther, or less far. Points as far apart as a horizon, to 1e-4 of it, are neighbors "
-        "here",
+        "the difference of both farther, or less far. Points are neighbors here up to 1.0001 horizons",
         "Contact > Models > touch > Contact Radius is the distance from which points push each "
         "other; those of two bodies that start nearer do so from that distance on, in Peridigm "
         "from the radius on, so that they push at once, as hard as here after an approach by the difference of both; "

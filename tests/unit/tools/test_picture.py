@@ -363,7 +363,7 @@ class RigidTools(InFolder):
         deck.write_text(deck.read_text().replace("><", '><ParameterList name="Start From"/><', 1))
         with contextlib.redirect_stdout(io.StringIO()) as said:
             rigid.tools_of(str(deck))
-        self.assertIn("the tool 'punch' is drawn as it begins anew", said.getvalue())
+        self.assertIn("the tool 'punch' is drawn as if it began where the deck has it", said.getvalue())
 
     def test_a_tool_with_a_mass_rests_in_the_equilibria_before_its_flight(self):
         (self.folder / "h.csv").write_text("# strut\nTime,Reaction_Z(punch)\n0,0\n0.5,0\n1,0\n1.001,0\n1.002,0\n")

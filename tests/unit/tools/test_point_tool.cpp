@@ -250,11 +250,11 @@ TEST_F(PointToolTest, RefusesAWrongPath) {
   expect("0,1,0,0,0,0,0\n1,1,0,0,0,0,0\n", "path.csv:1: the first row is the unloaded start");
 }
 
-// Perfectly plastic beyond its flow stress: no strain carries it. (Hardening modulus 0.)
 TEST_F(PointToolTest, FailsIfItsTableDoesNotFitTheDisk) {
   EXPECT_EQ(point(path("deck.xml") + " --material steel --uniaxial-strain 1 0.1 > /dev/full; exit $?").status, 1);
 }
 
+// Perfectly plastic beyond its flow stress: no strain carries it. (Hardening modulus 0.)
 TEST_F(PointToolTest, SaysWhereNoStepIsFound) {
   std::string saturated = deck;
   const auto at = saturated.find("100.0e6");

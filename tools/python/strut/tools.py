@@ -85,7 +85,7 @@ def convergence(study, out, name, **options):
 
 
 def on_first(action):
-    """What action(folder) gives on rank 0; its error is one on all."""
+    """Calls action(folder) on rank 0. Returns its result there, None on other ranks; if it fails, all ranks raise an error."""
     found = error = None
     if _core.rank() == 0:
         try:
