@@ -92,15 +92,12 @@ Couples::Neighborhood Couples::of(const Kinematics& kinematics, int i, double ar
 void Couples::add_forces(const Domain& domain, const std::vector<Neighborhood>& neighborhoods,
                          const std::vector<Vector>& couples, std::vector<Vector>& force_density) {
   if (!any_) return;
-  // The few points in the neighborhood of an owned point with a couple. If bonds may break, add_forces() visits all: a
-  // bond may break at one end first.
-  std::vector<char> turned(twists_.size(), 0);
-  const bool may_break = !domain.families.broken.empty();
+  std::vector<char> turned(twists_.size(), 0);  // the few points in the neighborhood of an owned point with a couple
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const Patch& patch = neighborhoods[k].patch;
     const int i = points_[k];
     twists_[i] = {patch.per_couple * couples[k], domain.current(i) + patch.middle};
-    if (may_break || twists_[i].turn.isZero(0)) continue;
+    if (twists_[i].turn.isZero(0)) continue;
     turned[i] = 1;
     domain.families.for_each(i, [&](int j) { turned[j] = 1; });
   }
@@ -108,7 +105,7 @@ void Couples::add_forces(const Domain& domain, const std::vector<Neighborhood>& 
   forces_.assign(affected_.size(), Vector::Zero());
   for (std::size_t n = 0; n < affected_.size(); ++n) {
     const int i = affected_[n];
-    if (!turned[i] && i < domain.interior && !may_break) continue;
+    if (!turned[i] && i < domain.interior) continue;
     Vector sum = Vector::Zero();
     const auto take = [&](int j) {
       if (!twists_[j].turn.isZero(0)) sum += density(domain, i, j);

@@ -62,7 +62,7 @@ class Fracture : public BondBreaking {
 
   double bytes(const Body& body) const;  // with the memory that steps in which bonds may break add
 
-  void serialize(Archive& archive, Body& body);  // collective
+  void serialize(Archive& archive, Body& body);  // collective; restores to a body whose bonds are whole
 
  private:
   // A cluster with points whose bonds break in this step, with its values before the break.

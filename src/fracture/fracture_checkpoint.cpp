@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <stdexcept>
 
 #include "fracture/broken_family.hpp"
 #include "fracture/fracture.hpp"
@@ -81,6 +82,8 @@ void cut_again(Domain& domain, int i, const PackedRows& breaks) {
 
 void Fracture::serialize(Archive& archive, Body& body) {
   Domain& domain = body.domain;
+  if (archive.loading() && broken_bonds(body) > 0)
+    throw std::logic_error("broken bonds are restored to whole families, and bonds of this body have broken");
   PackedRows breaks(largest_whole_family(domain), domain.owned);
   for (int i = 0; i < domain.owned; ++i) {
     const std::vector<int>& broken = domain.families.broken[i];
