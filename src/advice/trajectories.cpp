@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 
+#include "base/math/time_integral.hpp"
 #include "setup/changes_in_time.hpp"
 #include "topology/bounding_box.hpp"
 

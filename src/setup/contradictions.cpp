@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/math/time_integral.hpp"
 #include "setup/changes_in_time.hpp"
 #include "setup/found_points.hpp"
 
