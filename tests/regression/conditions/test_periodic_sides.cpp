@@ -568,7 +568,7 @@ TEST(PeriodicSides, TellWhereTheyDoNotContinueTheMesh) {
     }
   }
   EXPECT_NE(told(true, "0", "4.2e-3").find(path + "24 points"), std::string::npos) << told(true, "0", "4.2e-3");
-  EXPECT_NE(told(true, "-5e-4", "4e-3").find("neighbor behind the side as from the one inside (0.0005"),
+  EXPECT_NE(told(true, "-5e-4", "4e-3").find("neighbor behind the side as from the one inside (0.0015"),
             std::string::npos)
       << told(true, "-5e-4", "4e-3");
   EXPECT_NE(told(true, "0", "7e-3").find(path + "no bond crosses its sides"), std::string::npos);
