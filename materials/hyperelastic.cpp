@@ -52,18 +52,11 @@ Referred at_start(const Hyperelastic& law, const Hyperelastic::State& state) {
   return referred(law, U, J, from_principal(then.deviator, stretch.axes), then.energy);
 }
 
-// v(x), x = Δt/t_k, gives means over a step in which s goes from a to b by ṡ = const − s/t_k: the mean of s is
-// m = ½ (a + b) + x v (b − a), the mean of s² is m² + v (b − a)².
-double variance(double x) {
-  constexpr double small = 0.1;  // below it the series errs by less than the round-off of the closed form
-  if (x < small) return 1.0 / 12 - x * x / 720 + x * x * x * x / 30240;
-  return (0.5 / std::tanh(0.5 * x) - 1 / x) / x;
-}
-
-// The branches after a step: the sum of their deviators (Kirchhoff stress, Pa), the mean of Σ γ_k h_k in the step, and
-// the work of their dampers (J/m³), each beside a spring of modulus γ_k `modulus`.
+// The branches after a step: the sum of their deviators (Kirchhoff stress, Pa), Σ γ_k h_k at the middle of its start
+// and end, and the work of their dampers (J/m³), each beside a spring of modulus γ_k `modulus`. Both energies are by
+// this middle, as the work of the forces: closed forms add a work of one sign in each step of a vibration.
 struct Branches {
-  Symmetric carried = Symmetric::Zero(), mean = Symmetric::Zero();
+  Symmetric carried = Symmetric::Zero(), middle = Symmetric::Zero();
   double damped = 0;
 };
 
@@ -75,16 +68,15 @@ Branches moved_on(const Hyperelastic& law, const PointStep& step, const Symmetri
   for (int k = 0; k < Hyperelastic::most_times; ++k) {
     const auto& [fraction, time] = law.times[k];
     if (fraction == 0) continue;
-    const double x = step.dt / time, v = variance(x);
+    const double x = step.dt / time;
     Eigen::Map<Symmetric> branch(state.branches.data() + 6 * k);
     const Symmetric start = branch;
     branch = std::exp(-x) * start - std::expm1(-x) / x * change;
-    const Symmetric mean = 0.5 * (start + branch) + x * v * (branch - start);
+    const Symmetric middle = 0.5 * (start + branch);
     const auto deviator_of = [&](const Symmetric& h) { return deviator(Symmetric(scale * congruent(U, h))); };
-    const Symmetric middle = deviator_of(mean), more = deviator_of(branch - start);
     sum.carried += fraction * deviator_of(branch);
-    sum.mean += fraction * mean;
-    sum.damped += fraction * x * (double_dot(middle, middle) + v * double_dot(more, more)) / (2 * modulus);
+    sum.middle += fraction * middle;
+    sum.damped += fraction * x * double_dot(deviator_of(middle), deviator_of(middle)) / (2 * modulus);
   }
   return sum;
 }
@@ -109,9 +101,9 @@ PointStress Hyperelastic::step(const PointStep& step, const Symmetric& stress, S
     const double secant = now.energy > measurable * shear() ? double_dot(fast, fast) / (4 * now.energy) : shear();
     const Branches branches = moved_on(*this, step, after.stress - before.stress, secant, next);
     kirchhoff = kept() * fast + branches.carried;
-    // The work of the instant law less ∫ Σ γ_k (S̃₀ − h_k) : dĒ, the part that relaxation has taken from its stress. It
-    // differs from the work of the forces in coarse load steps, so that the balance of energy shows their error.
-    const Symmetric relaxed = 0.5 * (1 - kept()) * (before.stress + after.stress) - branches.mean;
+    // The work of the instant law less ∫ Σ γ_k (S̃₀ − h_k) : dĒ, the part that relaxation has taken from its stress. The
+    // first is exact, so that the balance of energy shows coarse load steps.
+    const Symmetric relaxed = 0.5 * (1 - kept()) * (before.stress + after.stress) - branches.middle;
     const double work = after.energy - before.energy - double_dot(relaxed, after.strain - before.strain);
     next.dissipated = state.dissipated + branches.damped;
     next.stored = state.stored + work - branches.damped;
