@@ -54,7 +54,7 @@ struct PointCloud {
   std::vector<CellShape> shapes;
   // Shared nodes: numbers that a point has in common with the points that it touches, ascending. They are the nodes of
   // an element, or the elements around a node. Two points touch if they have one of these numbers in common. Bits from
-  // first_plane_bit on: the symmetry planes or upper periodic sides that a node lies on (shared_node_at).
+  // first_plane_bit on: the symmetry planes or periodic sides that a node lies on (shared_node_at).
   std::vector<std::vector<std::int64_t>> shared_nodes;
 
   // The same on all ranks.
