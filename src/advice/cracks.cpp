@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <set>
 #include <span>
-#include <sstream>
 
 #include "advice/checks.hpp"
 #include "advice/lattice_axes.hpp"
+#include "base/text.hpp"
 #include "fracture/plates.hpp"
 #include "mechanics/hindered_breaks.hpp"
 
@@ -26,19 +28,17 @@ constexpr auto least_fracture_energy = []<class L>(const L& law) -> double {
 }  // namespace
 
 std::string sudden_failure(const Situation& situation) {
-  const Body& body = situation.scene.body;
-  std::ostringstream text;
-  text.precision(2);
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    const MaterialBlock& block = body.blocks[b];
-    if (!block.material.damage || !block.material.damage->ductility || !(body.domain.blocks[b].spacing > 0)) continue;
-    const double given = block.material.damage->ductility->fracture_energy;
+  return lines_of_blocks(situation, [&](const MaterialBlock& block, std::size_t b) -> std::string {
+    const auto& damage = block.material.damage;
+    if (!damage || !damage->ductility || !(situation.scene.body.domain.blocks[b].spacing > 0)) return "";
+    const double given = damage->ductility->fracture_energy;
     const double least = std::visit(least_fracture_energy, block.material.law);
-    if (!(given > 0) || given >= least) continue;
-    text << "block '" << block.name << "': points hold more energy when they yield than its Fracture Energy, so they "
-         << "fail at once; expected more than " << least << " J/m², or a smaller spacing\n";
-  }
-  return text.str();
+    if (!(given > 0) || given >= least) return "";
+    return text_of(std::setprecision(2), "block '", block.name,
+                   "': points hold more energy when they yield than its Fracture Energy, so they fail at once; "
+                   "expected more than ",
+                   least, " J/m², or a smaller spacing\n");
+  });
 }
 
 namespace {
@@ -102,54 +102,44 @@ int layers_of_plates(const Body& body, const MaterialBlock& block, const BlockHo
 std::string cracks_of_plates(const Situation& situation) {
   constexpr double worth_saying = 0.1;
   const Body& body = situation.scene.body;
-  std::ostringstream text;
-  text.precision(2);
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    const MaterialBlock& block = body.blocks[b];
+  return lines_of_blocks(situation, [&](const MaterialBlock& block, std::size_t b) -> std::string {
     const BlockHorizons& of_block = body.domain.blocks[b];
     const auto& damage = block.material.damage;
-    if (!damage || !(damage->fracture_energy > 0) || !block.is_ordinary() || !(of_block.spacing > 0)) continue;
+    if (!damage || !(damage->fracture_energy > 0) || !block.is_ordinary() || !(of_block.spacing > 0)) return "";
     const int layers = layers_of_plates(body, block, of_block);
     const double part = layers > 0 ? part_in_plates(body, b, layers) : 1;
-    if (std::abs(part - 1) < worth_saying) continue;
-    text << "block '" << block.name << "': in plates of " << layers << (layers > 1 ? " layers" : " layer")
-         << " a flat cut from face to face dissipates " << part
-         << " of the Fracture Energy, because bonds break as in a lattice without faces; expected more layers, or "
-         << 1 / part << " times that Fracture Energy\n";
-  }
-  return text.str();
+    if (std::abs(part - 1) < worth_saying) return "";
+    return text_of(std::setprecision(2), "block '", block.name, "': in plates of ", layers,
+                   layers > 1 ? " layers" : " layer", " a flat cut from face to face dissipates ", part,
+                   " of the Fracture Energy, because bonds break as in a lattice without faces; expected more layers, "
+                   "or ",
+                   1 / part, " times that Fracture Energy\n");
+  });
 }
 
 std::string coarse_averages(const Situation& situation) {
   constexpr double least = 2;  // spacings
-  const Body& body = situation.scene.body;
-  std::ostringstream text;
-  text.precision(2);
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    const auto& damage = body.blocks[b].material.damage;
-    const double spacing = body.domain.blocks[b].spacing;
-    if (!damage || !damage->ductility || !(damage->ductility->averaging_radius > 0) || !(spacing > 0)) continue;
+  return lines_of_blocks(situation, [&](const MaterialBlock& block, std::size_t b) -> std::string {
+    const auto& damage = block.material.damage;
+    const double spacing = situation.scene.body.domain.blocks[b].spacing;
+    if (!damage || !damage->ductility || !(damage->ductility->averaging_radius > 0) || !(spacing > 0)) return "";
     const double spacings = damage->ductility->averaging_radius / spacing;
-    if (spacings > least * (1 - 1e-3)) continue;
-    text << "WARNING: block '" << body.blocks[b].name << "': its Averaging Radius is " << spacings
-         << " spacings, so the work to tear it depends on the spacing; expected " << least << " spacings or more\n";
-  }
-  return text.str();
+    if (spacings > least * (1 - 1e-3)) return "";
+    return text_of(std::setprecision(2), "WARNING: block '", block.name, "': its Averaging Radius is ", spacings,
+                   " spacings, so the work to tear it depends on the spacing; expected ", least, " spacings or more\n");
+  });
 }
 
 std::string noisy_cracks(const Situation& situation) {
-  const Body& body = situation.scene.body;
-  std::string text;
-  for (const MaterialBlock& block : body.blocks) {
+  return lines_of_blocks(situation, [](const MaterialBlock& block, std::size_t) -> std::string {
     const auto& damage = block.material.damage;
-    if (!block.is_quadratic() || !damage || damage->ductility || damage->is_gradual) continue;
-    text += "WARNING: block '" + block.name +
-            "' breaks bonds by Formulation 'Quadratic Correspondence': its cracks take 0.2 to 1.6 of their fracture "
-            "energy, and the four integration points of a cell, which have no mirror image of their own, decide on the "
-            "order of breaks: expect no symmetric crack. Choose Damage Model 'Cohesive Crack' (elastic solids; 0.89 to "
-            "1.07 of it), or another Formulation\n";
-  }
-  return text;
+    if (!block.is_quadratic() || !damage || damage->ductility || damage->is_gradual) return "";
+    return "WARNING: block '" + block.name +
+           "' breaks bonds by Formulation 'Quadratic Correspondence': its cracks take 0.2 to 1.6 of their fracture "
+           "energy, and the four integration points of a cell, which have no mirror image of their own, decide on the "
+           "order of breaks: expect no symmetric crack. Choose Damage Model 'Cohesive Crack' (elastic solids; 0.89 to "
+           "1.07 of it), or another Formulation\n";
+  });
 }
 
 std::string late_breaks(const Situation& situation) {
@@ -168,51 +158,45 @@ std::string late_breaks(const Situation& situation) {
 }
 
 std::string soft_faces(const Situation& situation) {
-  const Body& body = situation.scene.body;
-  std::string text;
-  for (int b = 0; b < std::ssize(body.blocks); ++b) {
-    const auto& damage = body.blocks[b].material.damage;
-    const auto concerns = [b](const contact::Interaction& one) { return one.first == b || one.second == b; };
-    if (!damage || !damage->is_gradual) continue;
-    if (std::none_of(situation.interactions.begin(), situation.interactions.end(), concerns)) continue;
-    text += "WARNING: block '" + body.blocks[b].name +
-            "' has contact, and cracks by Damage Model 'Cohesive Crack': the cells beside such a crack bear pressure, "
-            "but a thousandth of their shear, so faces that meet again give way, and pieces that are thrown or pressed "
-            "together may gain some percent of the energy (see Balance_Error); a smaller Safety Factor reduces that\n";
-  }
-  return text;
+  std::set<int> touching;
+  for (const contact::Interaction& one : situation.interactions) touching.insert({one.first, one.second});
+  return lines_of_blocks(situation, [&](const MaterialBlock& block, std::size_t b) -> std::string {
+    const auto& damage = block.material.damage;
+    if (!damage || !damage->is_gradual || !touching.contains(static_cast<int>(b))) return "";
+    return "WARNING: block '" + block.name +
+           "' has contact, and cracks by Damage Model 'Cohesive Crack': the cells beside such a crack bear pressure, "
+           "but a thousandth of their shear, so faces that meet again give way, and pieces that are thrown or pressed "
+           "together may gain some percent of the energy (see Balance_Error); a smaller Safety Factor reduces that\n";
+  });
 }
 
 // If K > 5/3 G, the bond's part of the dilatation reduces the energy that its break releases (docs/theory.md, By the
 // energy of a bond). Criteria of energy check that for each bond, those of stretch do not.
 std::string breaks_under_pressure(const Situation& situation) {
-  const Body& body = situation.scene.body;
-  std::string text;
-  for (const MaterialBlock& block : body.blocks) {
+  return lines_of_blocks(situation, [](const MaterialBlock& block, std::size_t) -> std::string {
     const auto& damage = block.material.damage;
-    if (!damage || !block.is_ordinary()) continue;
+    if (!damage || !block.is_ordinary()) return "";
     const auto [bulk, shear] = materials::moduli_of(block.material.law);
-    if (!(bulk > (5.0 / 3 + 1e-9) * shear)) continue;
-    text += "block '" + block.name + "': bonds break by their " +
-            (damage->critical_bond_energy ? "energy" : "stretch") + ", and Poisson's ratio is above 0.25: " +
-            (damage->critical_bond_energy ? "several that break in one step" : "some that break") +
-            " under pressure may give some energy (a thousandth of all was seen); told where Fracture_Energy falls "
-            "below -1 %\n";
-  }
-  return text;
+    if (!(bulk > (5.0 / 3 + 1e-9) * shear)) return "";
+    return "block '" + block.name + "': bonds break by their " + (damage->critical_bond_energy ? "energy" : "stretch") +
+           ", and Poisson's ratio is above 0.25: " +
+           (damage->critical_bond_energy ? "several that break in one step" : "some that break") +
+           " under pressure may give some energy (a thousandth of all was seen); told where Fracture_Energy falls "
+           "below -1 %\n";
+  });
 }
 
 std::string improbable_stretches(const Situation& situation) {
-  std::ostringstream text;
+  std::string text;
   for (const deck::NamedDamageModel& model : situation.deck.damage_models) {
     const auto& critical = model.model.critical_stretch;
     if (!critical || critical->depends_on_position() || critical->depends_on_time()) continue;
     const double value = critical->evaluate(0, 0, 0, situation.start);
     if (!(value > 1)) continue;
-    text << "WARNING: " << critical->path() << ": " << value << ", so bonds break at " << 1 + value
-         << " times their length; is it a fraction (2 % are 0.02)?\n";
+    text += text_of("WARNING: ", critical->path(), ": ", value, ", so bonds break at ", 1 + value,
+                    " times their length; is it a fraction (2 % are 0.02)?\n");
   }
-  return text.str();
+  return text;
 }
 
 }  // namespace strut

@@ -11,7 +11,9 @@
 
 #include "advice/checks.hpp"
 #include "advice/mesh_nodes.hpp"
+#include "base/text.hpp"
 #include "setup/blocks.hpp"
+#include "setup/found_points.hpp"
 #include "topology/pieces.hpp"
 
 namespace strut {
@@ -22,10 +24,12 @@ bool may_be_bonded(const BlockHorizons& one, const BlockHorizons& other, double 
   return one.body == other.body && gap <= 0.5 * (one.largest + other.largest);
 }
 
-bool declared(const std::vector<contact::Interaction>& interactions, int a, int b) {
-  return std::any_of(interactions.begin(), interactions.end(), [&](const contact::Interaction& one) {
-    return std::minmax(one.first, one.second) == std::minmax(a, b);
-  });
+// The pairs of blocks with an interaction, the lower one first.
+std::set<IndexPair> declared_pairs(const Situation& situation) {
+  std::set<IndexPair> pairs;
+  for (const contact::Interaction& one : situation.interactions)
+    pairs.insert({std::min(one.first, one.second), std::max(one.first, one.second)});
+  return pairs;
 }
 
 // The first time at which blocks meet, or one of them an image of the other one period away; not where the two may be
@@ -54,10 +58,11 @@ std::optional<double> first_meeting(const Situation& situation, int one, int oth
 
 std::string undeclared_contacts(const Situation& situation) {
   const std::vector<std::string>& names = situation.scene.body.domain.cloud.block_names;
+  const std::set<IndexPair> declared = declared_pairs(situation);
   std::ostringstream text;
-  for (int a = 0; a < static_cast<int>(names.size()); ++a) {
-    for (int b = a + 1; b < static_cast<int>(names.size()); ++b) {
-      if (declared(situation.interactions, a, b)) continue;
+  for (int a = 0; a < std::ssize(names); ++a) {
+    for (int b = a + 1; b < std::ssize(names); ++b) {
+      if (declared.contains({a, b})) continue;
       const auto time = first_meeting(situation, a, b);
       if (!time) continue;
       text << "WARNING: blocks " << names[a] << " and " << names[b] << " meet at about t = " << situation.start + *time
@@ -98,70 +103,56 @@ bool touch(const Vector& xi, double spacing, const Vector& edges, double gap) {
   return xi.norm() <= gap * spacing || (xi.cwiseAbs().array() <= gap * edges.array()).all();
 }
 
-// True if a bond joins elements with a node in common, or cells that touch.
-bool bridges_nothing(const Domain& domain, const MeshNodes& nodes, int i, int j, double spacing, const Vector& edges) {
-  return (nodes.of_both(i, j) && nodes.may_join(i, j)) ||
-         touch(bond(domain, i, j), spacing, edges, nodes.of_both(i, j) ? gap_of_elements : gap_of_points);
-}
+// Number of bonds between two blocks, both ends counted as one, how many ends are between elements with a node in
+// common, and between cells that touch.
+struct BondsBetween {
+  double count = 0, joined = 0, touching = 0;
+  bool are_across_a_gap() const { return count > 0 && joined == 0 && touching == 0; }
+};
+using BondsOfPairs = std::map<IndexPair, BondsBetween>;
 
-// Collective. The pairs of blocks that are bonded to each other across a gap only, and not joined by other blocks.
-std::set<std::pair<int, int>> bonded_across_gaps(const Domain& domain, const std::vector<int>& blocks,
-                                                 const MeshNodes& nodes) {
-  const int count = static_cast<int>(domain.blocks.size());
-  std::vector<double> kinds(count * count, 0);  // 1: bonds across a gap only, 2: others, too
-  for (int i = 0; i < domain.owned && count > 1; ++i) {
+// Collective. The pairs of blocks that are bonded to each other, the lower one first.
+BondsOfPairs bonds_of_pairs(const Domain& domain, const std::vector<int>& blocks, const MeshNodes& nodes) {
+  BondsOfPairs mine;
+  for (int i = 0; i < domain.owned && domain.blocks.size() > 1; ++i) {
     const int here = domain.cloud.blocks[i];
     std::optional<Vector> edges;
     domain.families.for_each(i, [&](int j) {
       if (blocks[j] == here) return;
-      double& kind = kinds[std::min(here, blocks[j]) * count + std::max(here, blocks[j])];
-      if (kind == 2) return;
       if (!edges) edges = edges_on_lattice(domain, i);
       const double spacing = std::max(domain.blocks[here].spacing, domain.blocks[blocks[j]].spacing);
-      kind = bridges_nothing(domain, nodes, i, j, spacing, *edges) ? 2 : 1;
+      const bool of_both = nodes.of_both(i, j);
+      BondsBetween& bonds = mine[{std::min(here, blocks[j]), std::max(here, blocks[j])}];
+      bonds.count += here < blocks[j] ? 1 : 0;
+      bonds.joined += of_both && nodes.may_join(i, j) ? 1 : 0;
+      bonds.touching += touch(bond(domain, i, j), spacing, *edges, of_both ? gap_of_elements : gap_of_points) ? 1 : 0;
     });
   }
-  domain.communicator.max(kinds);
-  std::vector<int> piece(count);
-  std::iota(piece.begin(), piece.end(), 0);
-  std::set<std::pair<int, int>> pairs;
-  for (const int kind : {2, 1}) {
-    for (int a = 0; a < count; ++a) {
-      for (int b = a + 1; b < count; ++b) {
-        if (kinds[a * count + b] != kind || piece[a] == piece[b]) continue;
-        if (kind == 2) std::ranges::replace(piece, int(piece[b]), int(piece[a]));
-        if (kind == 1) pairs.insert({a, b});
-      }
-    }
+  std::vector<IndexPair> pairs;
+  for (const auto& [pair, bonds] : mine) pairs.push_back(pair);
+  pairs = on_all_ranks(std::move(pairs), domain.communicator);
+  std::vector<double> sums;
+  for (const IndexPair& pair : pairs) {
+    for (const double one : {mine[pair].count, mine[pair].joined, mine[pair].touching}) sums.push_back(one);
   }
-  return pairs;
+  domain.communicator.sum(sums);
+  BondsOfPairs all;
+  for (std::size_t n = 0; n < pairs.size(); ++n) all[pairs[n]] = {sums[3 * n], sums[3 * n + 1], sums[3 * n + 2]};
+  return all;
 }
 
-// Number of bonds between two blocks, both ends counted as one, how many of them are between elements with a node in
-// common, and between cells that touch.
-struct BondsBetween {
-  double count = 0, joined = 0, touching = 0;
-};
-
-BondsBetween bonds_between(const Domain& domain, const std::vector<int>& blocks, const MeshNodes& nodes, int first,
-                           int second) {
-  BondsBetween bonds;
-  const double spacing = std::max(domain.blocks[first].spacing, domain.blocks[second].spacing);
-  for (int i = 0; i < domain.owned; ++i) {
-    if (domain.cloud.blocks[i] != first && domain.cloud.blocks[i] != second) continue;
-    const bool is_first = domain.cloud.blocks[i] == first;
-    std::optional<Vector> edges;
-    domain.families.for_each(i, [&](int j) {
-      if (blocks[j] != (is_first ? second : first)) return;
-      if (!edges) edges = edges_on_lattice(domain, i);
-      bonds.count += is_first ? 1 : 0;
-      bonds.joined += nodes.of_both(i, j) && nodes.may_join(i, j) ? 1 : 0;
-      bonds.touching +=
-          touch(bond(domain, i, j), spacing, *edges, nodes.of_both(i, j) ? gap_of_elements : gap_of_points) ? 1 : 0;
-    });
+// The pairs of blocks that are bonded to each other across a gap only, and not joined by other blocks.
+std::vector<IndexPair> bonded_across_gaps(const BondsOfPairs& bonded, std::size_t blocks) {
+  std::vector<int> piece(blocks);
+  std::iota(piece.begin(), piece.end(), 0);
+  for (const auto& [pair, bonds] : bonded) {
+    if (!bonds.are_across_a_gap()) std::ranges::replace(piece, int(piece[pair[1]]), int(piece[pair[0]]));
   }
-  return {domain.communicator.sum(bonds.count), domain.communicator.sum(bonds.joined),
-          domain.communicator.sum(bonds.touching)};
+  std::vector<IndexPair> pairs;
+  for (const auto& [pair, bonds] : bonded) {
+    if (bonds.are_across_a_gap() && piece[pair[0]] != piece[pair[1]]) pairs.push_back(pair);
+  }
+  return pairs;
 }
 
 // For owned points and ghosts the part of the mesh that elements with a common node make, or those that touch without.
@@ -188,15 +179,16 @@ std::vector<std::int64_t> parts_of(const Domain& domain, const std::vector<int>&
   return parts;
 }
 
-// Bonds of a block from one part to another, which bridge a gap.
-double bonds_of_parts(const Domain& domain, const std::vector<int>& blocks, const std::vector<std::int64_t>& parts,
-                      int block) {
-  double ends = 0;
+// Collective. The bonds of each block from one part to another, which bridge a gap.
+std::vector<double> bonds_of_parts(const Domain& domain, const std::vector<int>& blocks,
+                                   const std::vector<std::int64_t>& parts) {
+  std::vector<double> bonds(domain.blocks.size(), 0);
   for (int i = 0; i < domain.owned; ++i) {
-    if (domain.cloud.blocks[i] != block) continue;
-    domain.families.for_each(i, [&](int j) { ends += blocks[j] == block && parts[i] != parts[j] ? 1 : 0; });
+    double& of_block = bonds[domain.cloud.blocks[i]];
+    domain.families.for_each(i, [&](int j) { of_block += blocks[j] == blocks[i] && parts[i] != parts[j] ? 0.5 : 0; });
   }
-  return domain.communicator.sum(ends) / 2;
+  domain.communicator.sum(bonds);
+  return bonds;
 }
 
 // Collective. False if bonds have broken in the run before: those that are left tell nothing of gaps in the mesh.
@@ -220,6 +212,16 @@ std::string remedy(const deck::Deck& deck, const std::string& first, const std::
   return "Blocks > " + one + " > Separate Body true, or Blocks > " + other + " > Separate Body true";
 }
 
+// The interaction of the deck that lets two blocks meet, or a block itself; nullptr without one.
+const deck::Interaction* interaction_of(const deck::Deck& deck, const std::vector<std::string>& names, int a, int b) {
+  const auto is_meant = [&](const deck::Interaction& one) {
+    return one.first_block.empty() ? one.partners != (a == b ? deck::Partners::others : deck::Partners::itself)
+                                   : std::minmax(one.first_block, one.second_block) == std::minmax(names[a], names[b]);
+  };
+  const auto one = std::ranges::find_if(deck.interactions, is_meant);
+  return one == deck.interactions.end() ? nullptr : &*one;
+}
+
 }  // namespace
 
 std::string bonded_contacts(const Situation& situation) {
@@ -230,37 +232,28 @@ std::string bonded_contacts(const Situation& situation) {
   const std::vector<int> blocks = blocks_of(domain);
   const MeshNodes nodes(domain);
   const bool whole = is_whole(situation.scene.body);
-  const std::vector<std::int64_t> parts = parts_of(domain, blocks, nodes, whole);
-  std::ostringstream text;
-  for (int a = 0; a < static_cast<int>(names.size()); ++a) {
-    for (int b = a; b < static_cast<int>(names.size()); ++b) {
-      if (domain.blocks[a].body != domain.blocks[b].body) continue;
-      const auto is_meant = [&](const deck::Interaction& one) {
-        return one.first_block.empty()
-                   ? one.partners != (a == b ? deck::Partners::others : deck::Partners::itself)
-                   : std::minmax(one.first_block, one.second_block) == std::minmax(names[a], names[b]);
-      };
-      const auto one = std::find_if(deck.interactions.begin(), deck.interactions.end(), is_meant);
-      if (one == deck.interactions.end()) continue;
-      if (a == b) {
-        const double bonds = bonds_of_parts(domain, blocks, parts, a);
-        if (bonds == 0) continue;
-        text << "WARNING: Contact > Interactions > " << one->name << ": parts of block " << names[a]
-             << " that share no node are bonded to each other by " << static_cast<std::int64_t>(bonds)
-             << " bonds across gaps, between whose ends contact never acts; expected, for bodies that meet, a block of "
-                "the mesh for each of them, with Separate Body true\n";
-        continue;
-      }
-      const auto [bonds, joined, touching] = bonds_between(domain, blocks, nodes, a, b);
-      const bool across_gap = whole && joined == 0 && touching == 0;
-      if (bonds == 0 || (one->first_block.empty() && !across_gap)) continue;
-      text << "WARNING: Contact > Interactions > " << one->name << ": blocks " << names[a] << " and " << names[b]
-           << " are bonded to each other by " << static_cast<std::int64_t>(bonds)
-           << " bonds, between whose ends contact never acts; expected, for bodies that meet, "
-           << remedy(deck, names[a], names[b]) << "\n";
-    }
+  std::map<IndexPair, std::string> lines;
+  const std::vector<double> across = bonds_of_parts(domain, blocks, parts_of(domain, blocks, nodes, whole));
+  for (int a = 0; a < std::ssize(names); ++a) {
+    const deck::Interaction* one = across[a] > 0 ? interaction_of(deck, names, a, a) : nullptr;
+    if (!one) continue;
+    lines[{a, a}] = text_of("WARNING: Contact > Interactions > ", one->name, ": parts of block ", names[a],
+                            " that share no node are bonded to each other by ", static_cast<std::int64_t>(across[a]),
+                            " bonds across gaps, between whose ends contact never acts; expected, for bodies that "
+                            "meet, a block of the mesh for each of them, with Separate Body true\n");
   }
-  return text.str();
+  for (const auto& [pair, bonds] : bonds_of_pairs(domain, blocks, nodes)) {
+    const auto& [a, b] = pair;
+    const deck::Interaction* one = interaction_of(deck, names, a, b);
+    if (!one || (one->first_block.empty() && !(whole && bonds.are_across_a_gap()))) continue;
+    lines[pair] = text_of("WARNING: Contact > Interactions > ", one->name, ": blocks ", names[a], " and ", names[b],
+                          " are bonded to each other by ", static_cast<std::int64_t>(bonds.count),
+                          " bonds, between whose ends contact never acts; expected, for bodies that meet, ",
+                          remedy(deck, names[a], names[b]), "\n");
+  }
+  std::string text;
+  for (const auto& [pair, line] : lines) text += line;
+  return text;
 }
 
 // Where contact is declared, bonded_contacts() tells of them.
@@ -269,8 +262,10 @@ std::string bonded_gaps(const Situation& situation) {
   if (domain.blocks.size() < 2 || !is_whole(situation.scene.body)) return "";
   std::string text;
   const std::vector<std::string>& names = domain.cloud.block_names;
-  for (const auto& [a, b] : bonded_across_gaps(domain, blocks_of(domain), MeshNodes(domain))) {
-    if (declared(situation.interactions, a, b)) continue;
+  const std::set<IndexPair> declared = declared_pairs(situation);
+  const BondsOfPairs bonded = bonds_of_pairs(domain, blocks_of(domain), MeshNodes(domain));
+  for (const auto& [a, b] : bonded_across_gaps(bonded, names.size())) {
+    if (declared.contains({a, b})) continue;
     text += "WARNING: blocks " + names[a] + " and " + names[b] +
             " are bonded to each other across the gap between them, as one body; expected, for bodies that meet, " +
             remedy(situation.deck, names[a], names[b]) + " and contact between them (Contact > Interactions)\n";
@@ -286,26 +281,19 @@ std::string surfaces_at_seams(const Situation& situation) {
     if (!std::holds_alternative<contact::SurfaceLaw>(one.model.law)) continue;
     met[one.first].insert(one.second), met[one.second].insert(one.first);
   }
-  std::set<std::pair<int, int>> pairs;
-  for (const auto& [block, others] : met) {
-    for (const int a : others) {
-      for (const int b : others) {
-        if (a < b && domain.blocks[a].body == domain.blocks[b].body) pairs.insert({a, b});
-      }
-    }
-  }
-  if (pairs.empty()) return "";
-  const std::vector<int> blocks = blocks_of(domain);
-  const MeshNodes nodes(domain);
-  std::ostringstream text;
-  for (const auto& [a, b] : pairs) {
-    if (bonds_between(domain, blocks, nodes, a, b).count == 0) continue;
-    text << "WARNING: blocks " << domain.cloud.block_names[a] << " and " << domain.cloud.block_names[b]
-         << " are bonded to each other, but each has a surface of its own, and contact by 'Surface' is softer along "
+  if (met.empty()) return "";
+  const std::vector<std::string>& names = domain.cloud.block_names;
+  std::string text;
+  for (const auto& [pair, bonds] : bonds_of_pairs(domain, blocks_of(domain), MeshNodes(domain))) {
+    const auto& [a, b] = pair;
+    const std::set<int>& others = met[b];
+    if (std::ranges::none_of(met[a], [&](int block) { return others.contains(block); })) continue;
+    text += "WARNING: blocks " + names[a] + " and " + names[b] +
+            " are bonded to each other, but each has a surface of its own, and contact by 'Surface' is softer along "
             "their seam (half of the pressure, to two spacings from it); expected one block of the mesh where this "
             "counts, or contact between points\n";
   }
-  return text.str();
+  return text;
 }
 
 std::string contact_at_mirrors(const Situation& situation) {

@@ -3,7 +3,6 @@
 #include <iomanip>
 #include <limits>
 #include <set>
-#include <sstream>
 
 #include "advice/checks.hpp"
 #include "advice/lattice_axes.hpp"
@@ -79,28 +78,24 @@ std::string uneven_dilatation(const Situation& situation) {
       sums[b] += counts_of_strain(body, points[k]);
     }
   }
-  std::ostringstream text;
-  text.precision(3);
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    body.domain.communicator.sum(std::span<double>(sums[b].data(), 9));
-    if (!(sums[b].trace() > 0)) {
-      text << uneven_members_warning(body.blocks[b], situation.unevenness[b]);
-      continue;
-    }
+  return lines_of_blocks(situation, [&](const MaterialBlock& block, std::size_t b) -> std::string {
+    Tensor& sum = sums[b];
+    body.domain.communicator.sum(std::span<double>(sum.data(), 9));
+    if (!(sum.trace() > 0)) return uneven_members_warning(block, situation.unevenness[b]);
     for (const Mirror& mirror : body.domain.mirrors) {  // the images count, too
       if (mirror.body != body.domain.blocks[b].body) continue;
       const Tensor turn = Reflection::by(mirror).turn;
-      sums[b] = (0.5 * (sums[b] + turn * sums[b] * turn.transpose())).eval();
+      sum = (0.5 * (sum + turn * sum * turn.transpose())).eval();
     }
-    const Vector counts = Eigen::SelfAdjointEigenSolver<Tensor>(3 / sums[b].trace() * sums[b]).eigenvalues();
-    if (std::max(counts[2] - 1, 1 - counts[0]) < worth_saying) continue;
-    text << "WARNING: block '" << body.blocks[b].name << "': its points are not on a cubic lattice, so the dilatation "
-         << "of the material model 'Elastic' counts strain along one direction " << counts[0]
-         << " times and along another " << counts[2]
-         << " times, and stress and wave speeds are off by as much or more; expected cubes, or 'Elastic "
-            "Correspondence' by Formulation 'Quadratic Correspondence'\n";
-  }
-  return text.str();
+    const Vector counts = Eigen::SelfAdjointEigenSolver<Tensor>(3 / sum.trace() * sum).eigenvalues();
+    if (std::max(counts[2] - 1, 1 - counts[0]) < worth_saying) return "";
+    return text_of(std::setprecision(3), "WARNING: block '", block.name,
+                   "': its points are not on a cubic lattice, so the dilatation of the material model 'Elastic' counts "
+                   "strain along one direction ",
+                   counts[0], " times and along another ", counts[2],
+                   " times, and stress and wave speeds are off by as much or more; expected cubes, or 'Elastic "
+                   "Correspondence' by Formulation 'Quadratic Correspondence'\n");
+  });
 }
 
 namespace {
@@ -131,15 +126,6 @@ std::vector<MeanEdges> mean_edges(const Domain& domain) {
   return means;
 }
 
-template <class Law>
-std::set<int> blocks_that_meet_by(const Situation& situation) {
-  std::set<int> blocks;
-  for (const auto& [first, second, model] : situation.interactions) {
-    if (std::holds_alternative<Law>(model.law)) blocks.insert({first, second});
-  }
-  return blocks;
-}
-
 bool has_fracture_energy(const MaterialBlock& block) {
   const auto& damage = block.material.damage;
   return damage && (damage->fracture_energy > 0 || (damage->ductility && damage->ductility->fracture_energy > 0));
@@ -150,15 +136,14 @@ std::string unequal_cells_warning(const Situation& situation, const std::set<int
   constexpr double worth_saying = 1.25;
   const Body& body = situation.scene.body;
   const std::set<int> by_points = blocks_that_meet_by<contact::PairLaw>(situation);
-  std::string text;
-  for (int b = 0; b < std::ssize(body.blocks); ++b) {
+  return lines_of_blocks(situation, [&](const MaterialBlock& block, int b) -> std::string {
     double least = HUGE_VAL;
-    for (const int i : body.blocks[b].points) least = std::min(least, body.domain.cloud.spacings[i]);
-    least = -body.domain.communicator.max(-least);
+    for (const int i : block.points) least = std::min(least, body.domain.cloud.spacings[i]);
+    least = body.domain.communicator.min(least);
     const double largest = body.domain.blocks[b].spacing;
-    if (!(largest > worth_saying * least)) continue;
+    if (!(largest > worth_saying * least)) return "";
     std::string off;
-    if (has_fracture_energy(body.blocks[b]))
+    if (has_fracture_energy(block))
       off +=
           ", and its cracks the constants of the largest: between cells half as large a crack takes half of the "
           "Fracture Energy, by Bond Energy a tenth";
@@ -169,39 +154,36 @@ std::string unequal_cells_warning(const Situation& situation, const std::set<int
     if (by_points.contains(b))
       off += text_of(std::setprecision(3), ", and its contact one Contact Radius: the faces of some meet ",
                      largest - least, " m earlier than those of others");
-    if (off.empty()) continue;
-    text += text_of(std::setprecision(3), "WARNING: block '", body.blocks[b].name, "': its cells have edges of ", least,
-                    " to ", largest, " m", off, "; expected cells of one size, or a block for each\n");
-  }
-  return text;
+    if (off.empty()) return "";
+    return text_of(std::setprecision(3), "WARNING: block '", block.name, "': its cells have edges of ", least, " to ",
+                   largest, " m", off, "; expected cells of one size, or a block for each\n");
+  });
 }
 
 }  // namespace
 
 std::string oblong_cells(const Situation& situation) {
   constexpr double worth_saying = 1.3;
-  const Body& body = situation.scene.body;
-  const std::vector<MeanEdges> all = mean_edges(body.domain);
+  const std::vector<MeanEdges> all = mean_edges(situation.scene.body.domain);
   const std::set<int> touching = blocks_that_meet_by<contact::SurfaceLaw>(situation);
-  std::ostringstream text;
-  text.precision(2);
-  for (int b = 0; b < std::ssize(body.blocks); ++b) {
+  const auto line = [&](const MaterialBlock& block, int b) -> std::string {
     const auto& [shortest, spacing, longest] = all[b];
-    const bool touches = touching.contains(b), breaks = has_fracture_energy(body.blocks[b]);
-    if (!(touches || breaks) || !(longest > worth_saying * shortest)) continue;
-    text << "WARNING: block '" << body.blocks[b].name << "': its cells are no cubes (the longest edge is "
-         << longest / shortest << " times the shortest)";
+    const bool touches = touching.contains(b), breaks = has_fracture_energy(block);
+    if (!(touches || breaks) || !(longest > worth_saying * shortest)) return "";
+    std::string off;
     if (touches) {
-      text << ": contact by surfaces begins up to " << std::max(spacing - shortest, longest - spacing)
-           << " m early or late";
+      off = text_of(std::setprecision(2), ": contact by surfaces begins up to ",
+                    std::max(spacing - shortest, longest - spacing), " m early or late");
     }
-    if (breaks)
-      text << (touches ? ", and" : ":") << " cracks take more or less than the Fracture Energy (0.4 to 1.4 of "
-           << "it was found at ratios of 2 and 3)";
-    text << "; expected cubes\n";
-  }
-  text << unequal_cells_warning(situation, touching);
-  return text.str();
+    if (breaks) {
+      off += std::string(touches ? ", and" : ":") +
+             " cracks take more or less than the Fracture Energy (0.4 to 1.4 of it was found at ratios of 2 and 3)";
+    }
+    return text_of(std::setprecision(2), "WARNING: block '", block.name,
+                   "': its cells are no cubes (the longest edge is ", longest / shortest, " times the shortest)", off,
+                   "; expected cubes\n");
+  };
+  return lines_of_blocks(situation, line) + unequal_cells_warning(situation, touching);
 }
 
 }  // namespace strut

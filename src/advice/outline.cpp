@@ -7,6 +7,7 @@
 #include "advice/checks.hpp"
 #include "base/text.hpp"
 #include "setup/blocks.hpp"
+#include "setup/periods.hpp"
 #include "topology/bounding_box.hpp"
 
 namespace strut {
@@ -28,12 +29,6 @@ constexpr double least_size = 1e-8, most_size = 1e3, long_for_waves = 0.5;  // m
 // In the same case equilibria, and runs in which waves cross the body so many times, have bodies of tons.
 constexpr double most_mass = 1e4;  // kg: a cube of foam of 4 mm weighs 19 t if these are m
 constexpr double crossings_of_slow = 100;
-
-// Speed of longitudinal waves in the undeformed material, m/s.
-double wave_speed(const BlockMaterial& material) {
-  const double modulus = materials::moduli_of(material.law).longitudinal();
-  return std::sqrt(modulus / material.density);
-}
 
 // Yield stress of the undeformed material over Young's modulus; infinite if it never yields.
 double yield_ratio(const BlockMaterial& material) {
@@ -68,22 +63,15 @@ Eigen::AlignedBox3d box_of(const Body& body) {
   return common_box(box, body.domain.communicator);
 }
 
-double mass_of(const Body& body) {
-  double mass = 0;
-  for (int i = 0; i < body.owned(); ++i) mass += body.block_of(i).material.density * body.domain.volume(i);
-  return body.domain.communicator.sum(mass);
-}
-
 // Collective. For each body, the fastest wave speed of the blocks that are bonded to images through the sides, m/s; 0
 // without any.
-std::vector<double> wave_speeds_through(const Period& period, const Body& body) {
+std::vector<double> wave_speeds_through(int axis, const std::vector<Vector>& shifts, const Body& body) {
   const Domain& domain = body.domain;
-  std::vector<double> speeds(domain.body_count(), 0), shifts(domain.sites.size(), 0);
-  for (const ImagePoint& image : domain.halo.images()) shifts[image.ghost] = image.by.period[period.axis];
+  std::vector<double> speeds(domain.body_count(), 0);
   for (int i = domain.interior; i < domain.owned; ++i) {
     double& fastest = speeds[domain.body_of(i)];
     const double speed = wave_speed(body.block_of(i).material);
-    domain.families.for_each(i, [&](int j) { fastest = shifts[j] != 0 ? std::max(fastest, speed) : fastest; });
+    domain.families.for_each(i, [&](int j) { fastest = shifts[j][axis] != 0 ? std::max(fastest, speed) : fastest; });
   }
   domain.communicator.max(speeds);
   return speeds;
@@ -96,19 +84,13 @@ std::ranges::minmax_result<double> wave_speeds(const Body& body) {
   return std::ranges::minmax(speeds);
 }
 
-// Velocities of all points at the start, m/s.
-Eigen::AlignedBox3d velocities_of(const std::vector<Trajectory>& trajectories) {
-  Eigen::AlignedBox3d velocities;
-  for (const Trajectory& one : trajectories) velocities.extend(one.velocities);
-  return velocities;
-}
-
 // Largest difference of the velocities of points and tools, m/s.
 double largest_difference(const Situation& situation) {
   const Scene& scene = situation.scene;
   const double start = situation.start, duration = situation.duration;
   const double moment = first_moment * duration;
-  Eigen::AlignedBox3d velocities = velocities_of(situation.trajectories);
+  Eigen::AlignedBox3d velocities;
+  for (const Trajectory& one : situation.trajectories) velocities.extend(one.velocities);
   for (const RigidTool& tool : tools_of(scene.conditions))
     velocities.extend(Vector((tool.offset(start + moment) - tool.offset(start)) / moment));
   return velocities.isEmpty() ? 0 : velocities.diagonal().norm();
@@ -133,62 +115,73 @@ std::string outline(const Situation& situation) {
 }
 
 std::string improbable_materials(const Situation& situation) {
-  std::ostringstream text;
-  text.precision(4);
-  for (const MaterialBlock& block : situation.scene.body.blocks) {
+  return lines_of_blocks(situation, [](const MaterialBlock& block, std::size_t) {
     const double density = block.material.density, speed = wave_speed(block.material);
+    const std::string begin = "WARNING: block '" + block.name + "' ";
+    std::ostringstream text;
+    text.precision(4);
     if (!(density >= least_density && density <= most_density)) {
-      text << "WARNING: block '" << block.name << "' has a density of " << density
+      text << begin << "has a density of " << density
            << " kg/m³; solids have 10 to 30,000: is Density in kg/m³ (2.7 g/cm³ are 2700)?\n";
     }
     const bool is_elastomer = std::holds_alternative<materials::Hyperelastic>(block.material.law);
     if (!(speed >= (is_elastomer ? least_of_elastomers : least_wave_speed) && speed <= most_wave_speed)) {
-      text << "WARNING: block '" << block.name << "' has a wave speed of " << speed << " m/s; "
+      text << begin << "has a wave speed of " << speed << " m/s; "
            << (is_elastomer ? "elastomers have 10 to 20,000" : "solids have 100 to 20,000")
            << ": are moduli in Pa (70 GPa are 70e9) and the density in kg/m³?\n";
     }
     const double yield = yield_ratio(block.material);
     if (std::isfinite(yield) && yield > 0 && !(yield >= least_yield && yield <= most_yield)) {
-      text << "WARNING: block '" << block.name << "' yields at " << yield
+      text << begin << "yields at " << yield
            << " of its Young's modulus; solids have 1e-7 to 0.1: are both in Pa (50 MPa are 50e6)?\n";
     }
     const double hardens = hardening(block.material);
     if (hardens > 1e-12 && hardens < least_hardening) {
-      text << "WARNING: block '" << block.name << "' hardens by " << hardens
+      text << begin << "hardens by " << hardens
            << " of its yield stress until a plastic strain of 1, which is nothing: are both in Pa (50 MPa are 50e6)?\n";
     }
-  }
-  return text.str();
+    return text.str();
+  });
 }
 
-std::string springs_of_elastomers(const Situation& situation) {
-  constexpr double soft = 0.5, stiff = 1.3;  // parts of the default of the elastomer as it has relaxed
-  std::ostringstream text;
-  text.precision(2);
-  for (const MaterialBlock& block : situation.scene.body.blocks) {
-    const BlockMaterial& material = block.material;
-    const auto* elastomer = std::get_if<materials::Hyperelastic>(&material.law);
-    if (!elastomer) continue;
-    if (block.is_quadratic() || residual_of(material.stabilization) == ResidualKind::none) continue;
-    const double given = coefficient_of(material.stabilization);
-    const double usual = usual_coefficient(material.law, material.stabilization, false);
-    const materials::Hyperelastic relaxed = elastomer->relaxed(situation.duration);
-    const double fitting = usual_coefficient(relaxed, material.stabilization, false) * relaxed.moduli().longitudinal() /
-                           elastomer->moduli().longitudinal();
-    if (given > stiff * fitting && relaxed.shear() < elastomer->shear()) {
-      text << "WARNING: block '" << block.name << "': its elastomer relaxes to " << relaxed.shear() / elastomer->shear()
-           << " of its shear modulus in the run, but the springs of its "
-           << "stabilization do not relax: loaded slowly it is too stiff (blocks with the default springs by 4 to 8 % "
-           << "if it relaxes to 0.5, 14 to 20 % if to 0.2, 30 to 130 % if to 0.05); expected Formulation 'Quadratic "
-           << "Correspondence', or for slow loads a Stabilization Coefficient of " << fitting << '\n';
-    }
-    if (given >= soft * fitting) continue;
-    text << "WARNING: block '" << block.name << "': its elastomer has a Stabilization Coefficient of " << given
-         << "; the default is " << usual
-         << ". Under pressure such springs let zero-energy modes grow: a bar of K = 5 G "
-         << "with 0.01 in the place of 0.3, pressed to 0.6 of its length, was 29 % too soft\n";
+namespace {
+
+// Parts of the default of the elastomer as it has relaxed.
+constexpr double soft_springs = 0.5, stiff_springs = 1.3;
+
+std::string springs_of(const MaterialBlock& block, const materials::Hyperelastic& elastomer, double duration) {
+  const BlockMaterial& material = block.material;
+  const double given = coefficient_of(material.stabilization);
+  const double usual = usual_coefficient(material.law, material.stabilization, false);
+  const materials::Hyperelastic relaxed = elastomer.relaxed(duration);
+  const double fitting = usual_coefficient(relaxed, material.stabilization, false) * relaxed.moduli().longitudinal() /
+                         elastomer.moduli().longitudinal();
+  std::string text;
+  if (given > stiff_springs * fitting && relaxed.shear() < elastomer.shear()) {
+    text =
+        text_of(std::setprecision(2), "WARNING: block '", block.name, "': its elastomer relaxes to ",
+                relaxed.shear() / elastomer.shear(),
+                " of its shear modulus in the run, but the springs of its stabilization do not relax: loaded slowly "
+                "it is too stiff (blocks with the default springs by 4 to 8 % if it relaxes to 0.5, 14 to 20 % if to "
+                "0.2, 30 to 130 % if to 0.05); expected Formulation 'Quadratic Correspondence', or for slow loads a "
+                "Stabilization Coefficient of ",
+                fitting, "\n");
   }
-  return text.str();
+  if (given >= soft_springs * fitting) return text;
+  return text + text_of(std::setprecision(2), "WARNING: block '", block.name,
+                        "': its elastomer has a Stabilization Coefficient of ", given, "; the default is ", usual,
+                        ". Under pressure such springs let zero-energy modes grow: a bar of K = 5 G with 0.01 in the "
+                        "place of 0.3, pressed to 0.6 of its length, was 29 % too soft\n");
+}
+
+}  // namespace
+
+std::string springs_of_elastomers(const Situation& situation) {
+  return lines_of_blocks(situation, [&](const MaterialBlock& block, std::size_t) -> std::string {
+    const auto* elastomer = std::get_if<materials::Hyperelastic>(&block.material.law);
+    const bool has_springs = !block.is_quadratic() && residual_of(block.material.stabilization) != ResidualKind::none;
+    return elastomer && has_springs ? springs_of(block, *elastomer, situation.duration) : "";
+  });
 }
 
 namespace {
@@ -256,61 +249,72 @@ std::string temperatures_below_zero(const Situation& situation) {
       for (const double t : {situation.start, situation.start + situation.duration})
         least = std::min(least, one.temperature.evaluate(X, t));
     }
-    least = -body.domain.communicator.max(-least);
+    least = body.domain.communicator.min(least);
     if (least >= 0) continue;
     text << "WARNING: " << one.temperature.path() << " is " << least << " K: is it in K (20 °C are 293 K)?\n";
   }
   return text.str();
 }
 
+constexpr double cold = 150;  // K: few tests are colder, and temperatures in °C are lower
+
+std::string improbable_initial_temperature(const std::string& begin, const materials::ThermalJ2& metal,
+                                           double reference) {
+  constexpr double below_reference = 25;  // K: room temperatures differ by less
+  constexpr double melted = 1e-3;         // of the flow stress at room temperature
+  const double initial = metal.heating.initial, flow_stress = flow_stress_at(metal, initial);
+  std::ostringstream text;
+  text.precision(4);
+  text << begin << " has an Initial Temperature of " << initial << " K, ";
+  if (flow_stress <= melted * flow_stress_at(metal, materials::room_temperature)) {
+    text << "at which its metal is molten: its flow stress is " << flow_stress << " Pa; is it in K?\n";
+  } else if (initial < cold) {
+    text << "which is " << initial - 273.15 << " °C: is it in K (20 °C are 293 K)?\n";
+  } else if (initial < reference - below_reference) {
+    text << "below the Reference Temperature of " << reference
+         << " K at which its softening begins: its flow stress is that at the reference\n";
+  } else {
+    return "";
+  }
+  return text.str();
+}
+
+std::string improbable_temperatures_of(const MaterialBlock& block, const materials::ThermalJ2& metal) {
+  const double initial = metal.heating.initial, reference = reference_temperature(metal);
+  const std::string begin = "WARNING: block '" + block.name + "'";
+  std::ostringstream text;
+  text.precision(4);
+  text << improbable_initial_temperature(begin, metal, reference);
+  if (std::isfinite(reference) && reference < cold && initial >= cold) {
+    text << begin << " softens from a Reference Temperature of " << reference << " K on, which is "
+         << reference - 273.15 << " °C; at its Initial Temperature of " << initial << " K it has "
+         << flow_stress_at(metal, initial) / flow_stress_at(metal, reference)
+         << " of its flow stress: are both in K (20 °C are 293 K)?\n";
+  }
+  const double heat = metal.heating.capacity / block.material.density;
+  if (heat > 0 && !(heat >= least_heat && heat <= most_heat)) {
+    text << begin << " has a Specific Heat of " << heat
+         << " J/(kg K); solids have 100 to 5,000: is it in J/(kg K) (0.383 kJ/(kg K) are 383)?\n";
+  }
+  if (metal.shear_fall > 0 && metal.shear_reference < cold) {
+    text << begin << " has its elastic constants at a Shear Modulus Temperature of " << metal.shear_reference
+         << " K, which is " << metal.shear_reference - 273.15 << " °C: is it in K (20 °C are 293 K)?\n";
+  }
+  if (metal.moduli().shear <= (1 + 1e-9) * materials::ThermalJ2::least_shear * metal.shear) {
+    text << begin << " has a tenth of its shear modulus at " << initial
+         << " K, below which it does not fall; are Shear Modulus Slope (1/K) and Shear Modulus Temperature as meant?\n";
+  }
+  text << two_temperature_scales(block, metal);
+  return text.str();
+}
+
 }  // namespace
 
 std::string improbable_temperatures(const Situation& situation) {
-  constexpr double at_room = materials::room_temperature;
-  constexpr double cold = 150;            // K: few tests are colder, and temperatures in °C are lower
-  constexpr double below_reference = 25;  // K: room temperatures differ by less
-  constexpr double melted = 1e-3;         // of the flow stress at room temperature
-  std::ostringstream text;
-  text.precision(4);
-  text << temperatures_below_zero(situation);
-  for (const MaterialBlock& block : situation.scene.body.blocks) {
-    const materials::ThermalJ2* metal = hot_metal(block.material.law);
-    if (!metal) continue;
-    const double initial = metal->heating.initial, reference = reference_temperature(*metal);
-    const std::string begins = "WARNING: block '" + block.name + "' has an Initial Temperature of ";
-    if (flow_stress_at(*metal, initial) <= melted * flow_stress_at(*metal, at_room)) {
-      text << begins << initial << " K, at which its metal is molten: its flow stress is "
-           << flow_stress_at(*metal, initial) << " Pa; is it in K?\n";
-    } else if (initial < cold) {
-      text << begins << initial << " K, which is " << initial - 273.15 << " °C: is it in K (20 °C are 293 K)?\n";
-    } else if (initial < reference - below_reference) {
-      text << begins << initial << " K, below the Reference Temperature of " << reference
-           << " K at which its softening begins: its flow stress is that at the reference\n";
-    }
-    const std::string block_begins = "WARNING: block '" + block.name + "'";
-    if (std::isfinite(reference) && reference < cold && initial >= cold) {
-      text << block_begins << " softens from a Reference Temperature of " << reference << " K on, which is "
-           << reference - 273.15 << " °C; at its Initial Temperature of " << initial << " K it has "
-           << flow_stress_at(*metal, initial) / flow_stress_at(*metal, reference)
-           << " of its flow stress: are both in K (20 °C are 293 K)?\n";
-    }
-    const double heat = metal->heating.capacity / block.material.density;
-    if (heat > 0 && !(heat >= least_heat && heat <= most_heat)) {
-      text << block_begins << " has a Specific Heat of " << heat
-           << " J/(kg K); solids have 100 to 5,000: is it in J/(kg K) (0.383 kJ/(kg K) are 383)?\n";
-    }
-    if (metal->shear_fall > 0 && metal->shear_reference < cold) {
-      text << block_begins << " has its elastic constants at a Shear Modulus Temperature of " << metal->shear_reference
-           << " K, which is " << metal->shear_reference - 273.15 << " °C: is it in K (20 °C are 293 K)?\n";
-    }
-    if (metal->moduli().shear <= (1 + 1e-9) * materials::ThermalJ2::least_shear * metal->shear) {
-      text << block_begins << " has a tenth of its shear modulus at " << initial
-           << " K, below which it does not fall; are Shear Modulus Slope (1/K) and Shear Modulus Temperature as "
-              "meant?\n";
-    }
-    text << two_temperature_scales(block, *metal);
-  }
-  return text.str();
+  return temperatures_below_zero(situation) + lines_of_blocks(situation, [](const MaterialBlock& block, std::size_t) {
+           const materials::ThermalJ2* metal = hot_metal(block.material.law);
+           return metal ? improbable_temperatures_of(block, *metal) : std::string();
+         });
 }
 
 std::string improbable_scales(const Situation& situation) {
@@ -346,53 +350,67 @@ std::string large_elastic_strains(const Situation& situation) {
   constexpr double large = 0.05;
   if (scene.quasi_static || scene.control.fixed_dt > 0) return "";
   const double difference = largest_difference(situation);
-  std::ostringstream text;
-  text.precision(2);
-  for (const MaterialBlock& block : scene.body.blocks) {
+  return lines_of_blocks(situation, [&](const MaterialBlock& block, std::size_t) -> std::string {
     const double part = difference / wave_speed(block.material);
-    if (!(part > large) || block.is_ordinary() || std::isfinite(yield_ratio(block.material))) continue;
-    if (block.material.viscosity.any()) continue;
-    text << "block '" << block.name << "': elastic, and speeds are " << part << " of its wave speed apart: by strains "
-         << "of that order its energy is off by about as much, as its law is a rate form and steps that fall while it "
-         << "vibrates give it some; told from 1 % on, kept better with Linear Viscosity\n";
-  }
-  return text.str();
+    if (!(part > large) || block.is_ordinary() || std::isfinite(yield_ratio(block.material))) return "";
+    if (block.material.viscosity.any()) return "";
+    return text_of(std::setprecision(2), "block '", block.name, "': elastic, and speeds are ", part,
+                   " of its wave speed apart: by strains of that order its energy is off by about as much, as its law "
+                   "is a rate form and steps that fall while it vibrates give it some; told from 1 % on, kept better "
+                   "with Linear Viscosity\n");
+  });
 }
+
+namespace {
+
+// The largest change of a stretch in the run, and its rate at the start, 1/s.
+std::pair<double, double> change_and_rate(const Function& stretch, double start, double duration) {
+  const auto change = [&](double part) {
+    return stretch.evaluate(0, 0, 0, start + part * duration) - stretch.evaluate(0, 0, 0, start);
+  };
+  double largest = 0;
+  for (int k = 1; k <= 100; ++k) largest = std::max(largest, std::abs(change(0.01 * k)));
+  return {largest, change(first_moment) / (first_moment * duration)};
+}
+
+// The velocities of the points of each body at the start, m/s.
+std::vector<Eigen::AlignedBox3d> velocities_of_bodies(const Situation& situation) {
+  const Domain& domain = situation.scene.body.domain;
+  std::vector<Eigen::AlignedBox3d> velocities(domain.body_count());
+  for (std::size_t b = 0; b < situation.trajectories.size(); ++b)
+    velocities[domain.blocks[b].body].extend(situation.trajectories[b].velocities);
+  return velocities;
+}
+
+}  // namespace
 
 std::string sudden_stretches(const Situation& situation) {
   // Least strain of the first waves, relative to the largest strain of the run, that is worth a warning.
   constexpr double hardly_seen = 0.01;
   const Scene& scene = situation.scene;
-  if (scene.quasi_static || situation.deck.start_from) return "";
-  const double start = situation.start, duration = situation.duration;
   const Domain& domain = scene.body.domain;
-  std::ostringstream text;
-  text.precision(4);
+  if (domain.periods.empty() || scene.quasi_static || situation.deck.start_from) return "";
+  const std::vector<Eigen::AlignedBox3d> velocities = velocities_of_bodies(situation);
+  const std::vector<Vector> shifts = shifts_by_periods(domain);
+  std::string text;
   for (const Period& period : domain.periods) {
-    const int axis = period.axis;
-    const auto stretch = [&](double part) { return period.stretch.evaluate(0, 0, 0, start + part * duration); };
-    const auto change = [&](double part) { return stretch(part) - stretch(0); };
-    double largest = 0;
-    for (int k = 1; k <= 100; ++k) largest = std::max(largest, std::abs(change(0.01 * k)));
-    const double rate = change(first_moment) / (first_moment * duration), speed = std::abs(rate) * period.length;
-    std::vector<Eigen::AlignedBox3d> velocities(domain.body_count());
-    for (std::size_t b = 0; b < situation.trajectories.size(); ++b) {
-      velocities[domain.blocks[b].body].extend(situation.trajectories[b].velocities);
-    }
-    const std::vector<double> waves = wave_speeds_through(period, scene.body);
+    const auto [largest, rate] = change_and_rate(period.stretch, situation.start, situation.duration);
+    const double speed = std::abs(rate) * period.length;
+    const std::vector<double> waves = wave_speeds_through(period.axis, shifts, scene.body);
     bool is_sudden = false;
     for (std::size_t b = 0; b < waves.size(); ++b) {
-      const bool follows = velocities[b].isEmpty() || velocities[b].sizes()[axis] > 0.5 * speed;
+      const bool follows = velocities[b].isEmpty() || velocities[b].sizes()[period.axis] > 0.5 * speed;
       is_sudden = is_sudden || (waves[b] > 0 && speed > 2 * waves[b] * hardly_seen * largest && !follows);
     }
     if (!is_sudden) continue;
-    text << "WARNING: Boundary Conditions > " << situation.deck.conditions[period.number].name
-         << " > Stretch: the period changes by " << rate << " 1/s from the start, and points at rest follow by waves "
-         << "from the sides; expected, for a homogeneous strain, an Initial Velocity of " << rate << "*"
-         << "xyz"[axis] << " m/s along "
-         << "xyz"[axis] << ", or a Stretch that begins slowly\n";
+    const char axis = "xyz"[period.axis];
+    text += text_of(std::setprecision(4), "WARNING: Boundary Conditions > ",
+                    situation.deck.conditions[period.number].name, " > Stretch: the period changes by ", rate,
+                    " 1/s from the start, and points at rest follow by waves from the sides; expected, for a "
+                    "homogeneous strain, an Initial Velocity of ",
+                    rate, "*", axis, " m/s along ", axis, ", or a Stretch that begins slowly\n");
   }
-  return text.str();
+  return text;
 }
 
 }  // namespace strut

@@ -13,6 +13,7 @@
 #include "advice/checks.hpp"
 #include "setup/changes_in_time.hpp"
 #include "setup/found_points.hpp"
+#include "setup/periods.hpp"
 #include "topology/point_group.hpp"
 
 namespace strut {
@@ -51,9 +52,9 @@ std::vector<Held> held_directions(const deck::Deck& deck, const PointCloud& clou
 
 // Two conditions of the deck and their common points, for each non-reflecting end and each condition that holds its
 // points along its normal.
-std::map<std::pair<int, int>, std::vector<int>> held_points_of_ends(const deck::Deck& deck, const PointCloud& cloud,
-                                                                    const std::vector<Held>& held) {
-  std::map<std::pair<int, int>, std::vector<int>> pairs;
+std::map<IndexPair, std::vector<int>> held_points_of_ends(const deck::Deck& deck, const PointCloud& cloud,
+                                                          const std::vector<Held>& held) {
+  std::map<IndexPair, std::vector<int>> pairs;
   for (std::size_t place = 0; place < deck.conditions.size(); ++place) {
     const auto* end = std::get_if<NonReflectingEnd>(&deck.conditions[place].kind);
     if (!end) continue;
@@ -140,12 +141,11 @@ std::vector<std::array<double, 2>> free_points(const Situation& situation, const
     if (std::abs(one.direction[period.axis]) < one.part || (motion && motion->value.depends_on_position())) continue;
     for (const int i : one.points) is_held[i] = 1;
   }
-  std::vector<double> shifts(domain.sites.size(), 0);
-  for (const ImagePoint& image : domain.halo.images()) shifts[image.ghost] = image.by.period[period.axis];
+  const std::vector<Vector> shifts = shifts_by_periods(domain);
   std::vector<std::array<double, 2>> counts(domain.body_count(), {0, 0});
   for (int i = 0; i < domain.owned; ++i) {
     auto& [across, free] = counts[domain.body_of(i)];
-    domain.families.for_each(i, [&](int j) { across += shifts[j] != 0 ? 1 : 0; });
+    domain.families.for_each(i, [&](int j) { across += shifts[j][period.axis] != 0 ? 1 : 0; });
     free += is_held[i] != 0 ? 0 : 1;
   }
   for (auto& body : counts) domain.communicator.sum(body);
@@ -157,9 +157,11 @@ std::vector<std::array<double, 2>> free_points(const Situation& situation, const
 std::string held_stretches(const Situation& situation) {
   const Domain& domain = situation.scene.body.domain;
   std::string text;
+  if (domain.periods.empty()) return text;
+  const std::vector<Held> held = held_directions(situation.deck, domain.cloud);
   for (const Period& period : domain.periods) {
     if (!period.stretch.depends_on_time()) continue;
-    const auto counts = free_points(situation, period, held_directions(situation.deck, domain.cloud));
+    const auto counts = free_points(situation, period, held);
     for (std::size_t b = 0; b < domain.blocks.size(); ++b) {
       const auto& [across, free] = counts[domain.blocks[b].body];
       if (across == 0 || free > 0) continue;
@@ -198,20 +200,14 @@ void tell_scaled_ends(const Situation& situation, std::ostringstream& text) {
 std::string held_ends(const Situation& situation) {
   const deck::Deck& deck = situation.deck;
   const Body& body = situation.scene.body;
-  const auto pairs = held_points_of_ends(deck, body.domain.cloud, held_directions(deck, body.domain.cloud));
-  std::vector<std::vector<int>> lists;
-  for (const auto& [conditions, points] : pairs) lists.push_back(points);
-  const std::vector<FoundPoints> found = found_points(body, lists);
+  const std::vector<Held> held = held_directions(deck, body.domain.cloud);
   std::ostringstream text;
   text.precision(3);
   tell_scaled_ends(situation, text);
-  auto common = found.begin();
-  for (const auto& [conditions, points] : pairs) {
-    const FoundPoints& one = *common++;
-    if (one.count == 0) continue;
-    text << "WARNING: '" << deck.conditions[conditions.second].name << "' holds " << one.count
-         << " points of the non-reflecting end '" << deck.conditions[conditions.first].name
-         << "' along its normal, one of them at " << place_text(one.one)
+  for (const auto& [pair, found] : found_points(body, held_points_of_ends(deck, body.domain.cloud, held))) {
+    text << "WARNING: '" << deck.conditions[pair[1]].name << "' holds " << found.count
+         << " points of the non-reflecting end '" << deck.conditions[pair[0]].name
+         << "' along its normal, one of them at " << place_text(found.one)
          << ": waves are reflected there; expected a Node Set without these points\n";
   }
   return text.str();

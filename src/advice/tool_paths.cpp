@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <iterator>
 #include <limits>
 #include <sstream>
 
 #include "advice/checks.hpp"
 #include "base/math/time_integral.hpp"
+#include "base/text.hpp"
 #include "conditions/crossing.hpp"
 #include "conditions/prototype.hpp"
 #include "setup/changes_in_time.hpp"
@@ -237,35 +239,34 @@ std::string apart_tools(const Situation& situation) {
 std::string meeting_tools(const Situation& situation) {
   const Scene& scene = situation.scene;
   const double start = situation.start, duration = situation.duration;
-  const Body& body = scene.body;
   const std::vector<RigidTool> tools = tools_of(scene.conditions);
-  if (std::none_of(tools.begin(), tools.end(), [](const RigidTool& tool) { return tool.free != nullptr; })) return "";
-  const std::vector<Vector> velocities = predicted_velocities(scene.conditions, start, first_moment * duration, body);
+  if (std::ranges::none_of(tools, [](const RigidTool& tool) { return tool.free != nullptr; })) return "";
+  const std::vector<Vector> velocities =
+      predicted_velocities(scene.conditions, start, first_moment * duration, scene.body);
   std::vector<double> stopped;  // s after the start
+  std::vector<std::vector<double>> times;
   for (const RigidTool& tool : tools) {
-    const double gap = smallest_gap(tool, body, velocities, start, 0);
-    stopped.push_back(gap > 0 ? first_touch(tool, body, velocities, start, duration, gap).value_or(duration) : 0);
+    const double gap = smallest_gap(tool, scene.body, velocities, start, 0);
+    stopped.push_back(gap > 0 ? first_touch(tool, scene.body, velocities, start, duration, gap).value_or(duration) : 0);
+    times.push_back(times_of_path(tool, start, duration));
   }
-  std::ostringstream text;
-  text.precision(3);
+  std::string text;
   for (std::size_t n = 0; n < tools.size(); ++n) {
     for (std::size_t m = 0; m < n; ++m) {
       if (!may_meet(tools[m], tools[n]) || gap_between(tools[m], tools[n], start) < 0) continue;
-      std::vector<double> times = times_of_path(tools[m], start, duration);
-      std::ranges::copy(times_of_path(tools[n], start, duration), std::back_inserter(times));
-      std::ranges::sort(times);
+      std::vector<double> of_both;
+      std::ranges::merge(times[m], times[n], std::back_inserter(of_both));
       const double until = start + std::min(stopped[m], stopped[n]) * (1 + as_good_as_none);
-      const auto met = [&](double time) { return gap_between(tools[m], tools[n], time) < 0; };
-      const auto first = std::ranges::find_if(times, [&](double time) { return time > until || met(time); });
-      if (first == times.end() || *first > until) continue;
-      text
-          << "WARNING: the tools '" << scene.tools[m].name << "' and '" << scene.tools[n].name
-          << "' meet by about t = " << *first
-          << " s, by their paths and the velocities of the start, and pass through each other: tools stop points only; "
-             "expected material between them, or an end before (Final Time)\n";
+      const auto first = std::ranges::find_if(
+          of_both, [&](double time) { return time > until || gap_between(tools[m], tools[n], time) < 0; });
+      if (first == of_both.end() || *first > until) continue;
+      text += text_of(std::setprecision(3), "WARNING: the tools '", scene.tools[m].name, "' and '", scene.tools[n].name,
+                      "' meet by about t = ", *first,
+                      " s, by their paths and the velocities of the start, and pass through each other: tools stop "
+                      "points only; expected material between them, or an end before (Final Time)\n");
     }
   }
-  return text.str();
+  return text;
 }
 
 std::string thin_tools(const Situation& situation) {

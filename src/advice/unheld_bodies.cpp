@@ -10,6 +10,7 @@
 #include "advice/checks.hpp"
 #include "base/text.hpp"
 #include "setup/found_points.hpp"
+#include "setup/periods.hpp"
 #include "topology/pieces.hpp"
 
 namespace strut {
@@ -105,8 +106,7 @@ Pieces pieces_of(const Domain& domain) {
 
 // A body that is bonded to its image one period away can rotate only around the axis of the period.
 void hold_by_periods(const Domain& domain, Pieces& pieces) {
-  std::vector<Vector> periods(domain.sites.size(), Vector::Zero());  // of images
-  for (const ImagePoint& image : domain.halo.images()) periods[image.ghost] = image.by.period;
+  const std::vector<Vector> periods = shifts_by_periods(domain);
   for (int i = domain.interior; i < domain.owned; ++i) {
     domain.families.for_each(i, [&](int j) {
       if (periods[j].isZero(0)) return;

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <sstream>
 #include <type_traits>
-#include <utility>
 
 #include "advice/checks.hpp"
 #include "base/errors.hpp"

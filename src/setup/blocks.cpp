@@ -196,6 +196,16 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
   }
 }
 
+double wave_speed(const BlockMaterial& material) {
+  return std::sqrt(materials::moduli_of(material.law).longitudinal() / material.density);
+}
+
+double mass_of(const Body& body) {
+  double mass = 0;
+  for (int i = 0; i < body.owned(); ++i) mass += body.block_of(i).material.density * body.domain.volume(i);
+  return body.domain.communicator.sum(mass);
+}
+
 std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& taken) {
   constexpr double worth_telling = 0.01;
   const std::size_t blocks = body.blocks.size();
@@ -206,9 +216,7 @@ std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& ta
               (body.blocks[of_point].material.density - body.blocks[of_element].material.density);
     }
   }
-  double mass = 0;
-  for (int i = 0; i < body.owned(); ++i) mass += body.block_of(i).material.density * body.domain.volume(i);
-  mass = body.domain.communicator.sum(mass);
+  const double mass = mass_of(body);
   if (std::abs(more) <= worth_telling * (mass - more)) return "";
   return text_of(
       std::setprecision(4), "WARNING: the mass is ", mass, " kg, that of the elements ", mass - more,

@@ -41,6 +41,9 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
 // cells, as in Peridigm.
 std::array<int, 3> box_reach(const deck::Grid& grid, const deck::Block& section);
 
+double wave_speed(const BlockMaterial& material);  // of longitudinal waves in the undeformed material, m/s
+double mass_of(const Body& body);                  // collective; kg, without scaling
+
 // Collective. A warning if the mass of points at nodes differs from that of the mesh: a node shared by blocks of two
 // densities has the density of the first one. `taken`: PointCloud::taken_volumes.
 std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& taken);

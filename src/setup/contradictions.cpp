@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <utility>
 #include <variant>
 
 #include "base/math/time_integral.hpp"
@@ -133,17 +132,15 @@ std::vector<double> targets(const Hold& hold, const Vector& X, const Times& time
   return all;
 }
 
-using Pair = std::pair<int, int>;  // two conditions
-
 // The hold's condition, with the earlier one whose direction is nearest to that of the hold.
-Pair pair_of(const Holds& holds, std::size_t h) {
+IndexPair pair_of(const Holds& holds, std::size_t h) {
   double nearest = -1;
   int other = holds[h].condition;
   for (std::size_t k = 0; k < h; ++k) {
     const double along = std::abs(holds[k].direction.dot(holds[h].direction));
     if (holds[k].condition != holds[h].condition && along > nearest) nearest = along, other = holds[k].condition;
   }
-  return std::minmax(other, holds[h].condition);
+  return {std::min(other, holds[h].condition), std::max(other, holds[h].condition)};
 }
 
 // A hold in the space that the earlier ones leave free.
@@ -174,7 +171,7 @@ double largest_of(const std::vector<std::vector<double>>& wanted) {
 
 // The two conditions that leave the point no motion, if any do: the directions are held one after the other, each in
 // the space that the earlier ones leave free.
-std::optional<Pair> contradiction(const Holds& holds, const Vector& X, const Times& times) {
+std::optional<IndexPair> contradiction(const Holds& holds, const Vector& X, const Times& times) {
   const auto is_velocity = [](const Hold& one) { return one.is_velocity; };
   const bool summed = !std::ranges::all_of(holds, is_velocity) &&
                       std::ranges::any_of(holds, [](const Hold& one) { return one.is_velocity && one.value; });
@@ -231,15 +228,15 @@ SampleTimes sample_times(const SharedPoints& shared, const deck::Deck& deck, con
 }
 
 // For each pair of conditions, the points at which they contradict each other.
-std::map<Pair, std::vector<int>> contradicting_points(const SharedPoints& shared, const Body& body,
-                                                      const SampleTimes& samples) {
-  std::map<Pair, std::vector<int>> all;
-  std::map<std::vector<int>, std::optional<Pair>> known;  // by conditions, for values independent of position
+std::map<IndexPair, std::vector<int>> contradicting_points(const SharedPoints& shared, const Body& body,
+                                                           const SampleTimes& samples) {
+  std::map<IndexPair, std::vector<int>> all;
+  std::map<std::vector<int>, std::optional<IndexPair>> known;  // by conditions, for values independent of position
   for (const auto& [i, holds] : shared) {
     std::vector<int> conditions;
     for (const Hold& one : holds) conditions.push_back(one.condition);
     const bool by_place = depends_on_position(holds);
-    std::optional<Pair> found;
+    std::optional<IndexPair> found;
     const auto before = known.find(conditions);
     if (before != known.end() && !by_place) {
       found = before->second;
@@ -252,17 +249,12 @@ std::map<Pair, std::vector<int>> contradicting_points(const SharedPoints& shared
   return all;
 }
 
-void tell(const std::map<Pair, std::vector<int>>& points, const std::string& what, const deck::Deck& deck,
+void tell(const std::map<IndexPair, std::vector<int>>& points, const std::string& what, const deck::Deck& deck,
           const Body& body, deck::Problems& problems) {
-  const int count = static_cast<int>(deck.conditions.size());
-  std::vector<std::vector<int>> lists(count * count);
-  for (const auto& [pair, some] : points) lists[pair.first * count + pair.second] = some;
-  const std::vector<FoundPoints> found = found_points(body, lists);
-  for (int n = 0; n < count * count; ++n) {
-    if (found[n].count == 0) continue;
-    problems.add("Boundary Conditions > " + deck.conditions[n % count].name,
-                 "contradicts '" + deck.conditions[n / count].name + "': both prescribe the " + what + " of " +
-                     std::to_string(found[n].count) + " points, one of them at " + place_text(found[n].one) +
+  for (const auto& [pair, found] : found_points(body, points)) {
+    problems.add("Boundary Conditions > " + deck.conditions[pair[1]].name,
+                 "contradicts '" + deck.conditions[pair[0]].name + "': both prescribe the " + what + " of " +
+                     std::to_string(found.count) + " points, one of them at " + place_text(found.one) +
                      ", along one axis, or along axes that are not across each other, with different values; expected "
                      "one value for each point");
   }

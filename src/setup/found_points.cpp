@@ -1,7 +1,10 @@
 #include "setup/found_points.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <span>
 
+#include "base/parallel/gather_scatter.hpp"
 #include "base/text.hpp"
 
 namespace strut {
@@ -37,6 +40,28 @@ std::vector<FoundPoints> found_points(const Body& body, const std::vector<std::v
         {static_cast<std::int64_t>(counts[n]), {of_one[0], of_one[1], of_one[2]}, {of_one[3], of_one[4], of_one[5]}});
   }
   return found;
+}
+
+std::vector<IndexPair> on_all_ranks(std::vector<IndexPair> pairs, const Communicator& communicator) {
+  pairs = gather(communicator, std::span<const IndexPair>(pairs));
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  communicator.broadcast(pairs);
+  return pairs;
+}
+
+std::map<IndexPair, FoundPoints> found_points(const Body& body, const std::map<IndexPair, std::vector<int>>& lists) {
+  std::vector<IndexPair> pairs;
+  for (const auto& [pair, points] : lists) pairs.push_back(pair);
+  pairs = on_all_ranks(std::move(pairs), body.domain.communicator);
+  std::vector<std::vector<int>> by_pair;
+  for (const IndexPair& pair : pairs) by_pair.push_back(lists.contains(pair) ? lists.at(pair) : std::vector<int>());
+  const std::vector<FoundPoints> found = found_points(body, by_pair);
+  std::map<IndexPair, FoundPoints> all;
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    if (found[n].count > 0) all[pairs[n]] = found[n];
+  }
+  return all;
 }
 
 std::string place_text(const Vector& place) { return text_of("(", place[0], ", ", place[1], ", ", place[2], ") m"); }

@@ -182,59 +182,73 @@ std::string gaps(const std::string& path, const Domain& domain, const std::vecto
                  most[1], " m where these differ most); expected Upper − Lower as large as the mesh with its cells\n");
 }
 
-}  // namespace
-
-std::string open_sides(const deck::Deck& deck, const Domain& domain) {
-  std::string warnings;
-  if (domain.periods.empty()) return warnings;
-  std::vector<Vector> shifts(domain.sites.size(), Vector::Zero());
-  for (const ImagePoint& image : domain.halo.images()) shifts[image.ghost] = image.by.period;
-  std::vector<char> is_cut(domain.owned, 0);  // from an image, by a crack along a side: the mesh goes on there
-  for (const auto& [i, other] : domain.separated) {
-    if (Images::image(other) > 0) is_cut[i] = 1;
+// Collective. `is_cut`: from an image, by a crack along a side: the mesh goes on there.
+AtSides at_side(const deck::Deck& deck, const Domain& domain, const Period& period, bool is_upper,
+                const std::vector<Vector>& shifts, const std::vector<bool>& is_cut) {
+  const int bit = first_plane_bit + period.axis + (is_upper ? 0 : lower_side);
+  const double outward = is_upper ? 1 : -1;
+  const auto is_on_side = [bit](std::int64_t node) { return (node >> bit & 1) != 0; };
+  double counts[] = {0, 0, 0};
+  for (int i = 0; i < domain.owned && !domain.cloud.shared_nodes.empty(); ++i) {
+    if (std::ranges::none_of(domain.cloud.shared_nodes[i], is_on_side)) continue;
+    bool meets = false;
+    domain.families.for_each(i, [&](int j) { meets = meets || outward * shifts[j][period.axis] > 0; });
+    ++counts[0], counts[1] += meets || is_cut[i] ? 0 : 1;
+    counts[2] += meets && outward * surface_along(domain.cloud, period.axis, i) > 0.1 ? 1 : 0;
   }
-  const bool any_quadratic = std::ranges::any_of(deck.materials, is_quadratic);
-  const auto nodes_of = [&](int i) {
-    return domain.cloud.shared_nodes.empty() ? 0 : domain.cloud.shared_nodes[i].size();
-  };
-  double with_nodes = 0;
-  for (int i = 0; i < domain.owned; ++i) with_nodes += nodes_of(i) > 0 ? 1 : 0;
-  with_nodes = domain.communicator.sum(with_nodes);
-  for (const Period& period : domain.periods) {
-    const std::string path = path_of(deck, period.number);
-    if (with_nodes == 0) warnings += gaps(path, domain, shifts, period.axis);
-    AtSides all;
-    for (const bool is_upper : {true, false}) {
-      const int bit = first_plane_bit + period.axis + (is_upper ? 0 : lower_side);
-      const double outward = is_upper ? 1 : -1;
-      double counts[] = {0, 0, 0};
-      for (int i = 0; i < domain.owned && with_nodes > 0; ++i) {
-        const auto is_on_side = [&](std::int64_t node) { return (node >> bit & 1) != 0; };
-        if (nodes_of(i) == 0 || std::ranges::none_of(domain.cloud.shared_nodes[i], is_on_side)) continue;
-        bool meets = false;
-        domain.families.for_each(i, [&](int j) { meets = meets || outward * shifts[j][period.axis] > 0; });
-        ++counts[0], counts[1] += meets || is_cut[i] != 0 ? 0 : 1;
-        counts[2] += meets && outward * surface_along(domain.cloud, period.axis, i) > 0.1 ? 1 : 0;
-      }
-      domain.communicator.sum(counts);
-      if (with_nodes > 0 && counts[0] == 0) {
-        throw Error(path + ": no element has a node on the " + (is_upper ? "upper" : "lower") +
-                    " side, which cuts elements or lies beyond the mesh; expected sides at the faces of the mesh");
-      }
-      all.count += counts[0], all.alone += counts[1], all.facing += counts[2];
-    }
-    if (any_quadratic && all.facing > 0.5 * (all.count - all.alone)) {  // a staircase has fewer
-      warnings +=
-          text_of("WARNING: ", path, ": ", all.facing, " of ", all.count,
-                  " partly filled elements at a side have surfaces that face it, though the body goes on behind it: "
-                  "their mesh was not made to repeat; quadratic correspondence is less accurate in them\n");
-    }
-    if (all.alone == 0) continue;
-    warnings += text_of("WARNING: ", path, ": ", all.alone, " of ", all.count,
+  domain.communicator.sum(counts);
+  if (counts[0] == 0) {
+    throw Error(path_of(deck, period.number) + ": no element has a node on the " + (is_upper ? "upper" : "lower") +
+                " side, which cuts elements or lies beyond the mesh; expected sides at the faces of the mesh");
+  }
+  return {counts[0], counts[1], counts[2]};
+}
+
+// Collective. Sides that do not continue a mesh with nodes.
+std::string ends_at_sides(const deck::Deck& deck, const Domain& domain, const Period& period,
+                          const std::vector<Vector>& shifts, const std::vector<bool>& is_cut) {
+  const AtSides upper = at_side(deck, domain, period, true, shifts, is_cut);
+  const AtSides lower = at_side(deck, domain, period, false, shifts, is_cut);
+  const double count = upper.count + lower.count, alone = upper.alone + lower.alone;
+  const double facing = upper.facing + lower.facing;
+  const std::string begin = "WARNING: " + path_of(deck, period.number) + ": ";
+  std::string warnings;
+  if (std::ranges::any_of(deck.materials, is_quadratic) && facing > 0.5 * (count - alone)) {  // a staircase has fewer
+    warnings += text_of(begin, facing, " of ", count,
+                        " partly filled elements at a side have surfaces that face it, though the body goes on behind "
+                        "it: their mesh was not made to repeat; quadratic correspondence is less accurate in them\n");
+  }
+  if (alone > 0) {
+    warnings += text_of(begin, alone, " of ", count,
                         " elements at a side have no neighbor behind it, and end there; expected a mesh whose faces at "
                         "both sides are alike\n");
   }
   return warnings;
+}
+
+}  // namespace
+
+std::string open_sides(const deck::Deck& deck, const Domain& domain) {
+  if (domain.periods.empty()) return "";
+  const std::vector<Vector> shifts = shifts_by_periods(domain);
+  std::vector<bool> is_cut(domain.owned, false);
+  for (const auto& [i, other] : domain.separated) {
+    if (Images::image(other) > 0) is_cut[i] = true;
+  }
+  const auto has_nodes = [](const std::vector<std::int64_t>& nodes) { return !nodes.empty(); };
+  const bool with_nodes = domain.communicator.any(std::ranges::any_of(domain.cloud.shared_nodes, has_nodes));
+  std::string warnings;
+  for (const Period& period : domain.periods) {
+    warnings += with_nodes ? ends_at_sides(deck, domain, period, shifts, is_cut)
+                           : gaps(path_of(deck, period.number), domain, shifts, period.axis);
+  }
+  return warnings;
+}
+
+std::vector<Vector> shifts_by_periods(const Domain& domain) {
+  std::vector<Vector> shifts(domain.sites.size(), Vector::Zero());
+  for (const ImagePoint& image : domain.halo.images()) shifts[image.ghost] = image.by.period;
+  return shifts;
 }
 
 void join_images(const std::vector<Period>& periods, Shape& shape) {

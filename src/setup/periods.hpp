@@ -22,6 +22,9 @@ std::vector<Period> periods(const deck::Deck& deck, const PointCloud& cloud, con
 // Removes the ends of a box along the axis of a period as long as the box: the box touches its own images there.
 void join_images(const std::vector<Period>& periods, Shape& shape);
 
+// For each site the period along each axis that it is an image by, m: 0 for all but images.
+std::vector<Vector> shifts_by_periods(const Domain& domain);
+
 // Collective. A warning for each period whose upper side has elements that meet none of those at the lower side.
 std::string open_sides(const deck::Deck& deck, const Domain& domain);
 

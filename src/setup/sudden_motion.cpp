@@ -10,6 +10,8 @@
 #include <variant>
 
 #include "base/math/time_integral.hpp"
+#include "base/text.hpp"
+#include "setup/blocks.hpp"
 #include "setup/changes_in_time.hpp"
 #include "setup/found_points.hpp"
 
@@ -85,9 +87,7 @@ std::vector<Function> straining_values(const deck::Condition& condition) {
 std::vector<double> wave_times(const Body& body) {
   std::vector<double> times;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    const BlockMaterial& material = body.blocks[b].material;
-    const double modulus = materials::moduli_of(material.law).longitudinal();
-    times.push_back(body.domain.blocks[b].spacing * std::sqrt(material.density / modulus));
+    times.push_back(body.domain.blocks[b].spacing / wave_speed(body.blocks[b].material));
   }
   return times;
 }
@@ -244,60 +244,76 @@ void take_missed(const std::vector<double>& values, const std::vector<double>& t
   }
 }
 
+// How the value of a condition counts in equilibria.
+enum class Counts { as_it_is, by_change, by_integral };
+
+// Values of a condition at and between load steps.
+struct OverLoadSteps {
+  double largest = 0;         // at load steps
+  double zero = 0, most = 0;  // at the start, if changes count; anywhere
+  Missed missed;
+};
+
+OverLoadSteps over_load_steps(const Function& value, const Where& where, const deck::Solver& solver, Counts counts,
+                              bool rate_counts) {
+  constexpr int most_between = 16, most_samples = 100000;  // of a load step and of a run
+  const int load_steps = solver.quasi_static->load_steps;
+  const int between = std::clamp(most_samples / load_steps, 2, most_between);
+  const double start = solver.initial_time, duration = solver.final_time - start;
+  OverLoadSteps found;
+  over_the_box(value, where, [&](const OfTime& of_time) {
+    if (counts == Counts::by_change) found.zero = of_time(start);
+    double position = 0;  // of a velocity, up to t
+    for (int k = 0; k < load_steps; ++k) {
+      const std::vector<double> times = telling_times(value, of_time.X, start + duration * k / load_steps,
+                                                      start + duration * (k + 1) / load_steps, between);
+      std::vector<double> all;
+      for (std::size_t n = 0; n < times.size(); ++n) {
+        if (counts == Counts::by_integral && n > 0)  // time_integral() is exact, but takes hundreds of values
+          position += (times[n] - times[n - 1]) * of_time(std::midpoint(times[n - 1], times[n]));
+        all.push_back(counts == Counts::by_integral ? position : of_time(times[n]) - found.zero);
+        if (std::isfinite(all.back())) found.most = std::max(found.most, std::abs(all.back()));
+      }
+      found.largest = std::max({found.largest, std::abs(all.front()), std::abs(all.back())});
+      take_missed(all, times, rate_counts, found.missed);
+    }
+  });
+  return found;
+}
+
 }  // namespace
 
 std::string values_between_load_steps(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
   if (!deck.solver.quasi_static) return "";
-  constexpr int most_between = 16, most_samples = 100000;  // of a load step and of a run
   constexpr double reported = 0.06;  // of the largest at load steps: ten a period of a sine miss 5.1 % of that at most
   constexpr double round_off = 1e-12;
   const bool rate_counts = std::ranges::any_of(
       body.blocks, [](const MaterialBlock& block) { return materials::depends_on_rate(block.material.law); });
-  const int load_steps = deck.solver.quasi_static->load_steps;
-  const int between = std::clamp(most_samples / load_steps, 2, most_between);
-  const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
-  std::ostringstream text;
+  std::string text;
   for (std::size_t c = 0; c < points.size(); ++c) {
-    std::vector<Function> values = straining_values(deck.conditions[c]);
-    const bool strains = !values.empty();
-    const auto* motion = std::get_if<PrescribedMotion>(&deck.conditions[c].kind);
-    const bool is_velocity = motion && motion->is_velocity;
-    for (Function& position : positions_of(deck.conditions[c])) values.push_back(std::move(position));
-    for (Function& load : sampled_values(deck.conditions[c])) values.push_back(std::move(load));
+    const deck::Condition& condition = deck.conditions[c];
+    std::vector<Function> values = straining_values(condition);
+    const auto* motion = std::get_if<PrescribedMotion>(&condition.kind);
+    const Counts counts = !values.empty()                 ? Counts::by_change
+                          : motion && motion->is_velocity ? Counts::by_integral
+                                                          : Counts::as_it_is;
+    std::ranges::copy(positions_of(condition), std::back_inserter(values));
+    std::ranges::copy(sampled_values(condition), std::back_inserter(values));
     for (const Function& value : values) {
       if (!value.depends_on_time()) continue;
-      double largest = 0, zero = 0, seen = 0;
-      Missed missed;
-      over_the_box(value, where(points[c], body), [&](const OfTime& of_time) {
-        if (strains) zero = of_time(start);
-        double position = 0;  // of a velocity, up to t
-        for (int k = 0; k < load_steps; ++k) {
-          const std::vector<double> times = telling_times(value, of_time.X, start + duration * k / load_steps,
-                                                          start + duration * (k + 1) / load_steps, between);
-          std::vector<double> all;
-          for (std::size_t n = 0; n < times.size(); ++n) {
-            if (is_velocity && n > 0)
-              position += (times[n] - times[n - 1]) * of_time(std::midpoint(times[n - 1], times[n]));
-            all.push_back(is_velocity ? position : of_time(times[n]) - zero);
-            if (std::isfinite(all.back())) seen = std::max(seen, std::abs(all.back()));
-          }
-          largest = std::max({largest, std::abs(all.front()), std::abs(all.back())});
-          take_missed(all, times, rate_counts, missed);
-        }
-      });
-      if (!(missed.beyond > reported * largest + round_off * (std::abs(zero) + seen))) continue;
-      text << "WARNING: " << value.path()
-           << (strains       ? ": changes by "
-               : is_velocity ? ": its integral reaches "
-                             : ": reaches ")
-           << missed.value << " at t = " << missed.time << " s, between two load steps, and " << missed.before
-           << " and " << missed.after << " at these: "
-           << (rate_counts ? "equilibria follow the straight line between these, and a material may depend on its rate"
-                           : "the equilibria do not see it")
-           << "; are " << load_steps << " load steps enough?\n";
+      const auto [largest, zero, most, missed] =
+          over_load_steps(value, where(points[c], body), deck.solver, counts, rate_counts);
+      if (!(missed.beyond > reported * largest + round_off * (std::abs(zero) + most))) continue;
+      constexpr const char* what[] = {": reaches ", ": changes by ", ": its integral reaches "};
+      text += text_of("WARNING: ", value.path(), what[static_cast<int>(counts)], missed.value, " at t = ", missed.time,
+                      " s, between two load steps, and ", missed.before, " and ", missed.after, " at these: ",
+                      rate_counts ? "equilibria follow the straight line between these, and a material may depend on "
+                                    "its rate"
+                                  : "the equilibria do not see it",
+                      "; are ", deck.solver.quasi_static->load_steps, " load steps enough?\n");
     }
   }
-  return text.str();
+  return text;
 }
 
 }  // namespace strut
