@@ -5,7 +5,8 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <sstream>
+#include <string>
+#include <vector>
 
 #include "advice/checks.hpp"
 #include "advice/lattice_axes.hpp"
@@ -14,7 +15,6 @@
 #include "mechanics/expected_error.hpp"
 #include "mechanics/steepness.hpp"
 #include "mechanics/thin_members.hpp"
-#include "setup/found_points.hpp"
 
 namespace strut {
 
@@ -85,20 +85,16 @@ std::vector<bool> of_whole_cells(const Domain& domain) {
 
 std::string thin_members(const Situation& situation) {
   const Body& body = situation.scene.body;
-  const std::vector<double>& all = situation.members;
   const std::vector<bool> whole = of_whole_cells(body.domain);
-  std::ostringstream text;
-  text.precision(2);
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    const double spacing = body.domain.blocks[b].spacing;
+  return lines_of_blocks(situation, [&](const MaterialBlock& block, std::size_t b) -> std::string {
+    const double spacing = body.domain.blocks[b].spacing, thickness = situation.members[b];
     const double horizon = spacing > 0 ? body.domain.blocks[b].largest / spacing : 0;
-    const std::string found = thin_members_text(body.blocks[b], body.influence, horizon, all[b], whole[b],
-                                                situation.unevenness[b] < uneven_from);
-    if (found.empty()) continue;
-    text << "block '" << body.blocks[b].name << "': members are " << all[b] << " spacings thick (4 volume/surface); "
-         << found << "\n";
-  }
-  return text.str();
+    const std::string found =
+        thin_members_text(block, body.influence, horizon, thickness, whole[b], situation.unevenness[b] < uneven_from);
+    if (found.empty()) return "";
+    return text_of(std::setprecision(2), "block '", block.name, "': members are ", thickness,
+                   " spacings thick (4 volume/surface); ", found, "\n");
+  });
 }
 
 namespace {
@@ -131,86 +127,102 @@ void mark_held(const Situation& situation, std::vector<std::uint8_t>& held, std:
   });
 }
 
+// The blocks of each body, as a sentence begins with them.
+std::map<int, std::string> names_of_bodies(const Domain& domain) {
+  std::map<int, std::vector<std::string>> blocks;
+  for (std::size_t b = 0; b < domain.blocks.size(); ++b)
+    blocks[domain.blocks[b].body].push_back("'" + domain.cloud.block_names[b] + "'");
+  std::map<int, std::string> names;
+  for (const auto& [body, some] : blocks) names[body] = (some.size() == 1 ? "block " : "blocks ") + joined(some);
+  return names;
+}
+
+double outwards(const Domain& domain, int i, int side) {
+  return (side % 2 == 0 ? -1 : 1) * domain.reference(i)[side / 2];
+}
+
+// Collective. For each body how far its points reach beyond the origin toward each side, and then their largest
+// spacing, m.
+constexpr int extents = sides + 1;
+std::vector<double> extents_of_bodies(const Domain& domain) {
+  std::vector<double> all(extents * domain.body_count(), std::numeric_limits<double>::lowest());
+  for (int i = 0; i < domain.owned; ++i) {
+    double* const most = &all[extents * domain.body_of(i)];
+    for (int side = 0; side < sides; ++side) most[side] = std::max(most[side], outwards(domain, i, side));
+    most[sides] = std::max(most[sides], domain.cloud.spacings[i]);
+  }
+  domain.communicator.max(all);
+  return all;
+}
+
+// Collective. For each body how many points of the outer layer at each side nothing holds there, and then how many
+// points no condition moves along each axis.
+constexpr int counts = sides + 3;
+std::vector<double> free_points(const Domain& domain, const std::vector<double>& reaches,
+                                const std::vector<std::uint8_t>& held, const std::vector<std::uint8_t>& moved) {
+  constexpr double of_layer = 0.25;  // spacings that the points of a layer differ by
+  std::vector<double> all(counts * domain.body_count(), 0);
+  for (int i = 0; i < domain.owned; ++i) {
+    const double* const most = &reaches[extents * domain.body_of(i)];
+    double* const free = &all[counts * domain.body_of(i)];
+    for (int side = 0; side < sides; ++side) {
+      const bool is_outer = outwards(domain, i, side) > most[side] - of_layer * most[sides];
+      if (is_outer && ((held[i] >> side) & 1) == 0) ++free[side];
+    }
+    for (int axis = 0; axis < 3; ++axis) free[sides + axis] += ((moved[i] >> axis) & 1) == 0 ? 1 : 0;
+  }
+  domain.communicator.sum(all);
+  return all;
+}
+
 }  // namespace
 
 // Measured between two planes, 4, 8, 10 and 20 layers: +67, +26, +20 and +9 %; at nodes -1 to -0.1 %.
 std::string unstrained_ends(const Situation& situation) {
-  constexpr double worth_saying = 0.05, of_layer = 0.25;  // spacings that the points of a layer differ by
+  constexpr double worth_saying = 0.05;
   const Domain& domain = situation.scene.body.domain;
   if (domain.cloud.at == PointsAt::nodes) return "";
   std::vector<std::uint8_t> held(domain.owned, 0), moved(domain.owned, 0);
   mark_held(situation, held, moved);
-  std::map<int, std::string> names;  // of the blocks of each body
-  for (std::size_t b = 0; b < domain.blocks.size(); ++b) {
-    std::string& name = names[domain.blocks[b].body];
-    name += (name.empty() ? "'" : ", '") + domain.cloud.block_names[b] + "'";
-  }
   if (!domain.communicator.any(std::ranges::any_of(held, [](std::uint8_t one) { return one != 0; }))) return "";
-  // Of each body: of the sides, outwards, and the spacing; points of the outer layers that nothing holds, and points
-  // that are not moved along each axis.
-  constexpr int extents = sides + 1, counts = sides + 3;
-  std::vector<double> all_most(extents * domain.body_count(), std::numeric_limits<double>::lowest());
-  std::vector<double> all_free(counts * domain.body_count(), 0);
-  const auto outwards = [&](int i, int side) { return (side % 2 == 0 ? -1 : 1) * domain.reference(i)[side / 2]; };
-  for (int i = 0; i < domain.owned; ++i) {
-    double* const most = &all_most[extents * domain.body_of(i)];
-    for (int side = 0; side < sides; ++side) most[side] = std::max(most[side], outwards(i, side));
-    most[sides] = std::max(most[sides], domain.cloud.spacings[i]);
-  }
-  domain.communicator.max(all_most);
-  for (int i = 0; i < domain.owned; ++i) {
-    const double* const most = &all_most[extents * domain.body_of(i)];
-    double* const free = &all_free[counts * domain.body_of(i)];
-    for (int side = 0; side < sides; ++side) {
-      if (outwards(i, side) > most[side] - of_layer * most[sides] && ((held[i] >> side) & 1) == 0) ++free[side];
-      if (side % 2 == 0 && ((moved[i] >> (side / 2)) & 1) == 0) ++free[sides + side / 2];
-    }
-  }
-  domain.communicator.sum(all_free);
-  std::ostringstream text;
-  text.precision(2);
-  for (const auto& [body, name] : names) {
+  const std::vector<double> all_most = extents_of_bodies(domain), all_free = free_points(domain, all_most, held, moved);
+  std::string text;
+  for (const auto& [body, names] : names_of_bodies(domain)) {
     const double *most = &all_most[extents * body], *free = &all_free[counts * body];
     for (int axis = 0; axis < 3; ++axis) {
       const int ends = (free[2 * axis] == 0 ? 1 : 0) + (free[2 * axis + 1] == 0 ? 1 : 0);
       const double layers = 1 + (most[2 * axis] + most[2 * axis + 1]) / most[sides];
       if (free[sides + axis] == 0 || ends < worth_saying * layers) continue;
-      text << (name.find(',') == std::string::npos ? "block " : "blocks ") << name << ": about " << std::round(layers)
-           << " layers along "
-           << "xyz"[axis] << ", held or pressed at " << (ends == 1 ? "one end" : "both ends")
-           << ": points are in the middles of cells, and half a spacing at " << (ends == 1 ? "this end" : "each end")
-           << " does not strain: expect " << 100 * ends / layers << " % too much stiffness along "
-           << "xyz"[axis] << " (none with Points \"Nodes\", or by a Symmetry Plane)\n";
+      const char along = "xyz"[axis];
+      text += text_of(std::setprecision(2), names, ": about ", std::round(layers), " layers along ", along,
+                      ", held or pressed at ", ends == 1 ? "one end" : "both ends",
+                      ": points are in the middles of cells, and half a spacing at ", ends == 1 ? "this" : "each",
+                      " end does not strain: expect ", 100 * ends / layers, " % too much stiffness along ", along,
+                      " (none with Points \"Nodes\", or by a Symmetry Plane)\n");
     }
   }
-  return text.str();
+  return text;
 }
 
 // Concerns points by correspondence only: ordinary points have no F, and the fits of quadratic cells have a penalty.
 std::string flat_families(const Situation& situation) {
-  const Body& body = situation.scene.body;
   constexpr double very_flat = 20;  // `flatness`: a tenth of a spacing thick; two layers have 1.3
-  std::vector<std::vector<int>> flat(body.blocks.size());
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    for (const int i : body.blocks[b].points) {
-      if (body.blocks[b].is_ordinary() || body.blocks[b].is_quadratic()) break;
-      const LatticeFamilies* stencil = body.domain.families.lattice(i);
-      if ((stencil && stencil->spans_space(i)) || body.has_lost_bonds(i)) continue;  // broken ones are not of the mesh
-      if (flatness(body.domain, i) > very_flat) flat[b].push_back(i);
-    }
-  }
-  const std::vector<FoundPoints> found = found_points(body, flat);
-  std::ostringstream text;
-  for (std::size_t b = 0; b < found.size(); ++b) {
-    if (found[b].count == 0) continue;
-    text << "WARNING: block '" << body.blocks[b].name << "': the neighbors of " << found[b].count
-         << " points, one of them at " << place_text(found[b].one)
-         << ", nearly lie in one plane: the strain across it is noise of the mesh, and the steps of the run, or the "
-         << "substeps of these points, are several times shorter (substeps may feed vibrations: Solver > Verlet > "
-         << "Subcycling false); expected two layers of points or more, also on each side of a crack (Discretization > "
-         << "Bond Filters)\n";
-  }
-  return text.str();
+  const Body& body = situation.scene.body;
+  const auto is_flat = [&](const MaterialBlock& block, int i) {
+    if (block.is_ordinary() || block.is_quadratic()) return false;
+    const LatticeFamilies* stencil = body.domain.families.lattice(i);
+    if ((stencil && stencil->spans_space(i)) || body.has_lost_bonds(i))
+      return false;  // broken ones are not of the mesh
+    return flatness(body.domain, i) > very_flat;
+  };
+  return lines_of_points(situation, is_flat, [](const MaterialBlock& block, const FoundPoints& found, double) {
+    return text_of("WARNING: block '", block.name, "': the neighbors of ", found.count, " points, one of them at ",
+                   place_text(found.one),
+                   ", nearly lie in one plane: the strain across it is noise of the mesh, and the steps of the run, or "
+                   "the substeps of these points, are several times shorter (substeps may feed vibrations: Solver > "
+                   "Verlet > Subcycling false); expected two layers of points or more, also on each side of a crack "
+                   "(Discretization > Bond Filters)\n");
+  });
 }
 
 namespace {
@@ -236,92 +248,72 @@ std::string unknown_gradients(const Situation& situation) {
   const Body& body = situation.scene.body;
   const std::set<std::string> asked = asked_of_gradients(situation.deck);
   if (asked.empty()) return "";
-  std::vector<std::vector<int>> flat(body.blocks.size());
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    if (!body.blocks[b].is_ordinary()) continue;
-    for (const int i : body.blocks[b].points) {
-      if (body.domain.families.size(i) > 0 && !(trace(body.shape_inverse[i]) > 0)) flat[b].push_back(i);
-    }
-  }
-  const std::vector<FoundPoints> found = found_points(body, flat);
-  std::string text;
-  for (std::size_t b = 0; b < found.size(); ++b) {
-    if (found[b].count == 0) continue;
-    text += text_of("WARNING: block '", body.blocks[b].name, "': the neighbors of ", found[b].count,
-                    " points, one of them at ", place_text(found[b].one),
-                    ", lie in one plane, which leaves F unknown: there it is shown as the identity and stress as 0, "
-                    "though the points bear load (",
-                    joined({asked.begin(), asked.end()}),
-                    "); expected two layers of points or more, or variables such as Dilatation and reactions\n");
-  }
-  return text;
+  const auto is_flat = [&](const MaterialBlock& block, int i) {
+    return block.is_ordinary() && body.domain.families.size(i) > 0 && !(trace(body.shape_inverse[i]) > 0);
+  };
+  return lines_of_points(situation, is_flat, [&](const MaterialBlock& block, const FoundPoints& found, double) {
+    return text_of("WARNING: block '", block.name, "': the neighbors of ", found.count, " points, one of them at ",
+                   place_text(found.one),
+                   ", lie in one plane, which leaves F unknown: there it is shown as the identity and stress as 0, "
+                   "though the points bear load (",
+                   joined({asked.begin(), asked.end()}),
+                   "); expected two layers of points or more, or variables such as Dilatation and reactions\n");
+  });
 }
 
 namespace {
 
-// The families of their centers have no symmetry. Cells by quadratic correspondence need none: their fits balance a
-// uniform stress.
-std::string centers_of_tetrahedra(const Situation& situation) {
+// The families of centers of tetrahedra have no symmetry. Cells by quadratic correspondence need none: their fits
+// balance a uniform stress.
+bool is_center_of_tetrahedron(const MaterialBlock& block, const PointCloud& cloud, int i) {
   constexpr std::size_t corners = 4;
+  return !block.is_ordinary() && !block.is_quadratic() && cloud.at == PointsAt::elements &&
+         !cloud.shared_nodes.empty() && cloud.shared_nodes[i].size() == corners;
+}
+
+std::string centers_of_tetrahedra(const Situation& situation) {
   if (situation.deck.discretization.type == deck::MeshType::grid) return "";  // shared nodes may be those of boxes
-  const Body& body = situation.scene.body;
-  const PointCloud& cloud = body.domain.cloud;
-  std::vector<std::vector<int>> of_tetrahedra(body.blocks.size());
-  for (std::size_t b = 0; b < body.blocks.size() && cloud.at == PointsAt::elements; ++b) {
-    if (body.blocks[b].is_ordinary() || body.blocks[b].is_quadratic() || cloud.shared_nodes.empty()) continue;
-    for (const int i : body.blocks[b].points) {
-      if (cloud.shared_nodes[i].size() == corners) of_tetrahedra[b].push_back(i);
-    }
-  }
-  const std::vector<FoundPoints> found = found_points(body, of_tetrahedra);
-  std::string text;
-  for (std::size_t b = 0; b < found.size(); ++b) {
-    if (found[b].count == 0) continue;
-    text += text_of("WARNING: block '", body.blocks[b].name, "': ", found[b].count,
-                    " points are at centers of tetrahedra, where a uniform stress is no equilibrium of the mean "
-                    "gradient (bars of tetrahedra were found up to 25 % too soft in tension); expected Formulation "
-                    "'Quadratic Correspondence', Points \"Nodes\", or hexahedra\n");
-  }
-  return text;
+  const auto is_one = [&](const MaterialBlock& block, int i) {
+    return is_center_of_tetrahedron(block, situation.scene.body.domain.cloud, i);
+  };
+  return lines_of_points(situation, is_one, [](const MaterialBlock& block, const FoundPoints& found, double) {
+    return text_of("WARNING: block '", block.name, "': ", found.count,
+                   " points are at centers of tetrahedra, where a uniform stress is no equilibrium of the mean "
+                   "gradient (bars of tetrahedra were found up to 25 % too soft in tension); expected Formulation "
+                   "'Quadratic Correspondence', Points \"Nodes\", or hexahedra\n");
+  });
+}
+
+// The largest ratio of the horizons of an owned point and of others that it is bonded to, if these are of another size;
+// else 0.
+double ratio_of_horizons(const Domain& domain, int i) {
+  constexpr double of_blocks = 1.1, in_a_block = 1.6;  // a fitted cone has 1.5 between neighbors
+  const BlockHorizons& own = domain.blocks[domain.cloud.blocks[i]];
+  const double here = domain.horizon(i);
+  double ratio = 0;
+  domain.families.for_each(i, [&](int j) {
+    const double there = domain.horizon(j), other = std::max(there / here, here / there);
+    const bool is_of_another = there > of_blocks * own.largest || of_blocks * there < own.smallest;
+    if (is_of_another || other > in_a_block) ratio = std::max(ratio, other);
+  });
+  return ratio;
 }
 
 }  // namespace
 
 // Not of cells by quadratic correspondence, whose fits balance a uniform stress whatever the families around.
 std::string unequal_horizons(const Situation& situation) {
-  constexpr double of_blocks = 1.1, in_a_block = 1.6;  // a fitted cone has 1.5 between neighbors
-  const Body& body = situation.scene.body;
-  const Domain& domain = body.domain;
-  std::vector<std::vector<int>> beside(body.blocks.size());
-  std::vector<double> most(body.blocks.size(), 0);
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    if (body.blocks[b].is_quadratic()) continue;
-    for (const int i : body.blocks[b].points) {
-      double ratio = 0;
-      domain.families.for_each(i, [&](int j) {
-        const double there = domain.horizon(j), here = domain.horizon(i);
-        const BlockHorizons& own = domain.blocks[b];
-        const bool is_of_another = there > of_blocks * own.largest || of_blocks * there < own.smallest;
-        const double other = std::max(there / here, here / there);
-        if (is_of_another || other > in_a_block) ratio = std::max(ratio, other);
-      });
-      if (ratio > 0) beside[b].push_back(i);
-      most[b] = std::max(most[b], ratio);
-    }
-  }
-  domain.communicator.max(most);
-  const std::vector<FoundPoints> found = found_points(body, beside);
-  std::ostringstream text;
-  text.precision(3);
-  for (std::size_t b = 0; b < found.size(); ++b) {
-    if (found[b].count == 0) continue;
-    text << "WARNING: block '" << body.blocks[b].name << "': " << found[b].count << " points, one of them at "
-         << place_text(found[b].one) << ", are bonded to points with other horizons, by a factor of up to " << most[b]
-         << ": a uniform stress is no equilibrium there (strains were found to be up to 20 % off at 1.15, "
-            "60 % at 1.7 and 90 % at 2); expected one horizon and spacing (Blocks > Horizon), or bodies "
-            "that meet in contact (Separate Body)\n";
-  }
-  return centers_of_tetrahedra(situation) + text.str();
+  const auto ratio = [&](const MaterialBlock& block, int i) {
+    return block.is_quadratic() ? 0 : ratio_of_horizons(situation.scene.body.domain, i);
+  };
+  const auto line = [](const MaterialBlock& block, const FoundPoints& found, double most) {
+    return text_of(std::setprecision(3), "WARNING: block '", block.name, "': ", found.count, " points, one of them at ",
+                   place_text(found.one), ", are bonded to points with other horizons, by a factor of up to ", most,
+                   ": a uniform stress is no equilibrium there (strains were found to be up to 20 % off at 1.15, "
+                   "60 % at 1.7 and 90 % at 2); expected one horizon and spacing (Blocks > Horizon), or bodies "
+                   "that meet in contact (Separate Body)\n");
+  };
+  return centers_of_tetrahedra(situation) + lines_of_points(situation, ratio, line);
 }
 
 namespace {
@@ -348,61 +340,41 @@ double off_lattice(const Domain& domain, int i) {
 
 }  // namespace
 
+// Points that centers_of_tetrahedra() or unequal_horizons() tell of have their own reason.
 std::string points_off_lattices(const Situation& situation) {
-  constexpr double worth_saying = 0.05;                            // stress a few percent off
-  constexpr std::size_t enough = 2000, corners_of_tetrahedra = 4;  // points of a block and rank
-  const Body& body = situation.scene.body;
-  const Domain& domain = body.domain;
-  const auto& nodes = domain.cloud.shared_nodes;
-  std::vector<std::vector<int>> off(body.blocks.size());
-  std::vector<double> most(body.blocks.size(), 0);
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    if (body.blocks[b].is_quadratic()) continue;
-    const auto& points = body.blocks[b].points;
-    for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / enough) {
-      const int i = points[k];
-      const bool is_told = !body.blocks[b].is_ordinary() && domain.cloud.at == PointsAt::elements && !nodes.empty() &&
-                           nodes[i].size() == corners_of_tetrahedra;  // centers_of_tetrahedra()
-      if (is_told || domain.families.lattice(i)) continue;
-      const double found = off_lattice(domain, i);
-      if (found > worth_saying) off[b].push_back(i);
-      most[b] = std::max(most[b], found);
-    }
-  }
-  domain.communicator.max(most);
-  const std::vector<FoundPoints> found = found_points(body, off);
-  std::string text;
-  for (std::size_t b = 0; b < found.size(); ++b) {
-    if (found[b].count == 0) continue;
-    text += text_of(
-        std::setprecision(2), "WARNING: block '", body.blocks[b].name, "': around ", found[b].count,
-        " points or more, one of them at ", place_text(found[b].one), ", neighbors are off a lattice by up to ",
-        most[b], " spacings, as beside cells of another size: a uniform stress is no equilibrium there (",
-        body.blocks[b].is_ordinary()
+  constexpr double worth_saying = 0.05;  // stress a few percent off
+  constexpr std::size_t enough = 2000;
+  const Domain& domain = situation.scene.body.domain;
+  const auto measure = [&](const MaterialBlock& block, int i) -> double {
+    if (block.is_quadratic() || is_center_of_tetrahedron(block, domain.cloud, i) || domain.families.lattice(i))
+      return 0;
+    const double off = off_lattice(domain, i);
+    return off > worth_saying && ratio_of_horizons(domain, i) == 0 ? off : 0;
+  };
+  const auto line = [](const MaterialBlock& block, const FoundPoints& found, double most) {
+    return text_of(
+        std::setprecision(2), "WARNING: block '", block.name, "': around ", found.count,
+        " points or more, one of them at ", place_text(found.one), ", neighbors are off a lattice by up to ", most,
+        " spacings, as beside cells of another size: a uniform stress is no equilibrium there (",
+        block.is_ordinary()
             ? "stress was found to be up to 10 % off, strains up to 50 %"
             : "in elastic equilibria stress was found to be 10 % off at 0.1, 20 to 80 % from 0.2 on, and displacements "
               "alternate between neighbors; in Taylor bars plastic strain was 5 % off",
         "); expected cells of one size in a lattice, or Formulation 'Quadratic Correspondence'\n");
-  }
-  return text;
+  };
+  return lines_of_points(situation, measure, line, enough);
 }
 
 std::string narrow_surfaces_of_nodes(const Situation& situation) {
   constexpr double narrow = 8;  // spacings
   const Body& body = situation.scene.body;
   if (body.domain.cloud.at != PointsAt::nodes) return "";
-  std::set<int> blocks;
-  for (const auto& [first, second, model] : situation.interactions) {
-    if (std::holds_alternative<contact::SurfaceLaw>(model.law)) blocks.insert({first, second});
-  }
-  if (blocks.empty()) return "";
-  const std::vector<double>& all = situation.members;
-  std::string names;
-  for (const int b : blocks) {
-    if (all[b] > 0 && all[b] <= narrow) names += (names.empty() ? "" : ", ") + body.blocks[b].name;
+  std::vector<std::string> names;
+  for (const int b : blocks_that_meet_by<contact::SurfaceLaw>(situation)) {
+    if (situation.members[b] > 0 && situation.members[b] <= narrow) names.push_back(body.blocks[b].name);
   }
   if (names.empty()) return "";
-  return "WARNING: " + names +
+  return "WARNING: " + joined(names) +
          ": with points at nodes contact by surfaces is weak near edges: blocks 4 spacings wide were found to bear 0.1 "
          "of the pressure of wide faces, 8 spacings wide 0.4; expected Points \"Elements\"\n";
 }

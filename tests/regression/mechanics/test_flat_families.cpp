@@ -113,6 +113,26 @@ TEST(PointsOffLattices, AreToldOf) {
   EXPECT_EQ(told_of(0.98e-3).find(words), std::string::npos);
 }
 
+// Two bonded blocks of cubes, of 1 mm and 0.5 mm, whose horizons follow their spacings: one cause has one warning.
+TEST(PointsOffLattices, AreNotToldOfBesideOtherHorizons) {
+  const RunFolder folder;
+  std::ostringstream text;
+  for (int n = 0; n < 80; ++n)
+    text << n % 4 + 0.5 << "e-3 " << n / 4 % 4 + 0.5 << "e-3 " << n / 16 + 0.5 << "e-3 1 1e-9\n";
+  for (int n = 0; n < 512; ++n) {
+    text << 0.5 * (n % 8) + 0.25 << "e-3 " << 0.5 * (n / 8 % 8) + 0.25 << "e-3 " << 0.5 * (n / 64) + 5.25
+         << "e-3 2 1.25e-10\n";
+  }
+  folder.write("points.txt", text.str());
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.blocks = section("all", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+  const std::string told =
+      told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+  EXPECT_NE(told.find("are bonded to points with other horizons, by a factor of up to 2"), std::string::npos) << told;
+  EXPECT_EQ(told.find("neighbors are off a lattice"), std::string::npos) << told;
+}
+
 // The highest mode of a flat family is ten times as fast as a wave between points. Damping by the whole edge of a cell
 // passed what a step bears there, and the energy grew without a bound.
 TEST(FlatFamilies, BearTheirViscosity) {
