@@ -74,9 +74,16 @@ Branches moved_on(const Hyperelastic& law, const PointStep& step, const Symmetri
     branch = std::exp(-x) * start - std::expm1(-x) / x * change;
     const Symmetric middle = 0.5 * (start + branch);
     const auto deviator_of = [&](const Symmetric& h) { return deviator(Symmetric(scale * congruent(U, h))); };
+    const auto squared = [](const Symmetric& h) { return double_dot(h, h); };
     sum.carried += fraction * deviator_of(branch);
     sum.middle += fraction * middle;
-    sum.damped += fraction * x * double_dot(deviator_of(middle), deviator_of(middle)) / (2 * modulus);
+    double damped = x * squared(deviator_of(middle));
+    if (x > 1) {  // ∫ h:h dt/τ of a constant rate, h = steady + left exp(-t/τ): the end of a hold is far below its middle
+      const Symmetric steady = deviator_of(change / x), left = deviator_of(start) - steady;
+      damped = std::min(damped, x * squared(steady) - 2 * std::expm1(-x) * double_dot(steady, left) -
+                                    0.5 * std::expm1(-2 * x) * squared(left));
+    }
+    sum.damped += fraction * damped / (2 * modulus);
   }
   return sum;
 }

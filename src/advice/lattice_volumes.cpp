@@ -31,13 +31,13 @@ int axis_of(const Vector& xi) {
 }
 
 struct LatticeCell {
-  double volume = 0;       // m³, the product of the spacings; 0 if they are unknown
-  bool is_inside = false;  // with neighbors on both sides along each axis
+  double volume = 0;     // m³, the product of the spacings; 0 if they are unknown
+  bool is_full = false;  // between two neighbors along each axis, all with its own volume
 };
 
 // The spacings are those to the nearest points along the axes. They are unknown in a single layer, where they change,
-// where neighbors have other volumes (partly filled cells, halves at surfaces), and on lattices of other kinds, which
-// have points between those.
+// where the only neighbor along an axis has another volume (the last cell of a graded mesh), at nodes where any neighbor
+// has one (tetrahedra, halves at surfaces), and on lattices of other kinds, which have points between those.
 LatticeCell cell_around(const Domain& domain, int i) {
   constexpr double none = std::numeric_limits<double>::infinity();
   Eigen::Array<double, 3, 2> nearest = Eigen::Array<double, 3, 2>::Constant(none), volumes = nearest;
@@ -48,12 +48,15 @@ LatticeCell cell_around(const Domain& domain, int i) {
     nearest(axis, side) = xi.norm(), volumes(axis, side) = domain.volume(j);
   });
   const Eigen::Array3d spacing = nearest.rowwise().minCoeff();
-  bool is_regular = (spacing < none).all();
+  const bool at_nodes = domain.cloud.at == PointsAt::nodes;
+  bool is_regular = (spacing < none).all(), is_full = (nearest < none).all();
   for (int k = 0; k < 6; ++k) {
     const int axis = k / 2, side = k % 2;
     if (nearest(axis, side) == none) continue;
-    is_regular =
-        is_regular && are_alike(nearest(axis, side), spacing[axis]) && are_alike(volumes(axis, side), domain.volume(i));
+    const bool has_other = !are_alike(volumes(axis, side), domain.volume(i));
+    is_full = is_full && !has_other;
+    is_regular = is_regular && are_alike(nearest(axis, side), spacing[axis]) &&
+                 !(has_other && (at_nodes || nearest(axis, 1 - side) == none));
   }
   if (!is_regular) return {};
   domain.families.for_each(i, [&](int j) {
@@ -61,14 +64,14 @@ LatticeCell cell_around(const Domain& domain, int i) {
     if ((xi.abs() < (1 - alike) * spacing).all()) is_regular = false;
   });
   if (!is_regular) return {};
-  return {spacing.prod(), (nearest < none).all()};
+  return {spacing.prod(), is_full};
 }
 
-// Points at a surface may have less: a half for each face, if they stand for nodes.
+// Points at a surface or beside partly filled cells may have less: a half for each face, if they stand for nodes.
 bool is_off(const LatticeCell& cell, double volume, PointsAt at) {
   constexpr double worth_saying = 0.1, least_at_surfaces = 0.1;
   if (!(cell.volume > 0)) return false;
-  const double least = at == PointsAt::nodes ? 0 : cell.is_inside ? 1 - worth_saying : least_at_surfaces;
+  const double least = at == PointsAt::nodes ? 0 : cell.is_full ? 1 - worth_saying : least_at_surfaces;
   return volume > (1 + worth_saying) * cell.volume || volume < least * cell.volume;
 }
 

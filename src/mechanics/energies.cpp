@@ -66,10 +66,17 @@ void add_energies(const Body& body, const MaterialBlock& block, Energies& sum) {
 }
 
 // Collective.
-Energies over_all_ranks(const Energies& sum, const Communicator& ranks) {
-  double values[] = {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.expansion, sum.heat};
+void sum_over_ranks(std::span<Energies> sums, const Communicator& ranks) {
+  std::vector<double> values;
+  for (const Energies& sum : sums) {
+    values.insert(values.end(),
+                  {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.expansion, sum.heat});
+  }
   ranks.sum(values);
-  return {values[0], values[1], values[2], values[3], values[4], values[5]};
+  for (const double* of_one = values.data(); Energies& sum : sums) {
+    sum = {of_one[0], of_one[1], of_one[2], of_one[3], of_one[4], of_one[5]};
+    of_one += 6;
+  }
 }
 
 }  // namespace
@@ -80,7 +87,8 @@ Energies stored_energies(const Body& body) {
   sum.stabilization = total(0, body.owned(), [&](int i) { return body.stabilization_work(i) * body.domain.volume(i); });
   sum.fracture = std::accumulate(body.fracture_energy.begin(), body.fracture_energy.end(), sum.fracture);
   sum.expansion = work_of_expansion(body);
-  return over_all_ranks(sum, body.domain.communicator);
+  sum_over_ranks({&sum, 1}, body.domain.communicator);
+  return sum;
 }
 
 std::vector<Energies> stored_energies_of_bodies(const Body& body) {
@@ -91,7 +99,7 @@ std::vector<Energies> stored_energies_of_bodies(const Body& body) {
     add_energies(body, body.blocks[b], sum);
     for (const int i : body.blocks[b].points) sum.stabilization += body.stabilization_work(i) * domain.volume(i);
   }
-  for (Energies& sum : sums) sum = over_all_ranks(sum, domain.communicator);
+  sum_over_ranks(sums, domain.communicator);
   return sums;
 }
 

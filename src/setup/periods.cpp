@@ -59,9 +59,12 @@ std::string objection(const PeriodicSides& sides, const Eigen::AlignedBox3d& box
   return text.str();
 }
 
-// The surface of a point's cell that faces upward along the axis, in squares of its spacing.
-double surface_along(const PointCloud& cloud, int axis, int i) {
-  return cloud.shapes.empty() ? 0 : cloud.shapes[i].surface[axis] / std::pow(cloud.spacings[i], 2);
+// Whether the surface of a point's cell that faces upward (direction 1) or downward (-1) along the axis lies on the
+// side of the cell: inclined struts that go on behind the side face it, too, but nearer to the middle of the cell.
+bool ends_there(const PointCloud& cloud, int axis, double direction, int i) {
+  if (cloud.shapes.empty()) return false;
+  const double spacing = cloud.spacings[i], facing = direction * cloud.shapes[i].surface[axis];
+  return facing > 0.1 * spacing * spacing && cloud.shapes[i].surface_moments(axis, axis) > 0.1 * spacing * facing;
 }
 
 }  // namespace
@@ -194,7 +197,7 @@ AtSides at_side(const deck::Deck& deck, const Domain& domain, const Period& peri
     bool meets = false;
     domain.families.for_each(i, [&](int j) { meets = meets || outward * shifts[j][period.axis] > 0; });
     ++counts[0], counts[1] += meets || is_cut[i] ? 0 : 1;
-    counts[2] += meets && outward * surface_along(domain.cloud, period.axis, i) > 0.1 ? 1 : 0;
+    counts[2] += meets && ends_there(domain.cloud, period.axis, outward, i) ? 1 : 0;
   }
   domain.communicator.sum(counts);
   if (counts[0] == 0) {
@@ -213,7 +216,7 @@ std::string ends_at_sides(const deck::Deck& deck, const Domain& domain, const Pe
   const double facing = upper.facing + lower.facing;
   const std::string begin = "WARNING: " + path_of(deck, period.number) + ": ";
   std::string warnings;
-  if (std::ranges::any_of(deck.materials, is_quadratic) && facing > 0.5 * (count - alone)) {  // a staircase has fewer
+  if (std::ranges::any_of(deck.materials, is_quadratic) && facing > 0.4 * (count - alone)) {  // a staircase has fewer
     warnings += text_of(begin, facing, " of ", count,
                         " partly filled elements at a side have surfaces that face it, though the body goes on behind "
                         "it: their mesh was not made to repeat; quadratic correspondence is less accurate in them\n");

@@ -155,7 +155,7 @@ const std::vector<Case<DamageModel, Problems&>>& entries() {
        [](const Values& v, Problems&) { return ductile(materials::FailureStrain{v[failure_strain]}, v); }},
       {{.name = "Johnson-Cook",
         .meaning = "The same where ∫ dε̄/ε_f = 1 with ε_f of Johnson and Cook (1985); σ* is the mean stress over the "
-                   "von Mises stress, at most 1.5.",
+                   "von Mises stress, between -1.5 and 1.5.",
         .keys = {d1, d2, d3, d4, d5, reference_rate, reference, melting, tearing_energy, averaging_radius}},
        read_johnson_cook},
       {{.name = "Cockcroft-Latham",

@@ -65,7 +65,6 @@ std::vector<std::vector<HeldPoint>> held_points(const Body& body, const Constrai
 }
 
 // In place: arrays of Python are views of the values.
-void put_back(const Field& force_density, Body& body) { std::ranges::copy(force_density, body.force_density.begin()); }
 
 }  // namespace
 

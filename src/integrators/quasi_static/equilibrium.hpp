@@ -43,6 +43,11 @@ inline bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {
   return !now.failed && now.norm <= std::max(tolerance.relative * now.scale, now.round_off);
 }
 
+// In place: the forces keep the addresses that others hold.
+inline void put_back(const Field& force_density, Body& body) {
+  std::ranges::copy(force_density, body.force_density.begin());
+}
+
 class Equilibrium {
  public:
   // Collective. Computes the forces of the undeformed state. Throws Error if a condition needs inertia.
@@ -154,7 +159,7 @@ class Equilibrium {
   Committed committed_;
   std::optional<Constraints> constraints_;
   double t_ = 0, dt_ = 0;
-  // Of pieces, N; the residual at the first trial of a step is the scale of a part on which nothing acts.
+  // A force for each piece, N. The residual at the first trial of a step is the scale of a part that carries no load.
   std::vector<double> round_off_, last_scale_, largest_scale_, expansion_scale_, first_residual_;
   bool begins_ = false;  // no trial has been made since begin()
   std::optional<Failure> failure_;

@@ -38,7 +38,7 @@ GaveWay Equilibrium::give_way() {
                      stored_energies(body_).fracture > spent};
   if (!gave.any()) {
     committed_.restore_materials(body_);  // to the last bit, whether a checkpoint is written here or not
-    std::ranges::copy(with_loads, body_.force_density.begin());  // in place, as put_back() in equilibrium.cpp
+    put_back(with_loads, body_);
     return gave;
   }
   if (body_.domain.communicator.any(begin_flow(body_))) advance(0, t_ + dt_, true);

@@ -66,7 +66,8 @@ TEST(Seams, OfSurfacesAreTold) {
 
 // The warnings of points 1 mm apart, each with this part of a cube's volume, as text or as spheres. `at_faces`: halves
 // and quarters there, as points at nodes have.
-std::string told_of_volumes(const Vector& layers, double part, bool spheres = false, bool at_faces = false) {
+std::string told_of_volumes(const Vector& layers, double part, bool spheres = false, bool at_faces = false,
+                            double every_second = 1) {
   const RunFolder folder;
   const double spacing = 1e-3;  // m
   std::ostringstream lines;
@@ -75,7 +76,7 @@ std::string told_of_volumes(const Vector& layers, double part, bool spheres = fa
   for (int n = 0; n < layers.prod(); ++n) {
     const int x = n % int(layers[0]), y = n / int(layers[0]) % int(layers[1]), z = n / int(layers[0] * layers[1]);
     const Vector cell(x, y, z);
-    double volume = part * std::pow(spacing, 3);
+    double volume = part * ((x + y + z) % 2 == 0 ? 1 : every_second) * std::pow(spacing, 3);
     for (int axis = 0; axis < 3 && at_faces; ++axis)
       volume *= cell[axis] == 0 || cell[axis] == layers[axis] - 1 ? 0.5 : 1;
     lines << spacing * x << " " << spacing * y << " " << spacing * z << " 1 " << volume << "\n";
@@ -107,6 +108,8 @@ TEST(Volumes, ThatDoNotFitTheLatticeAreTold) {
                   "on: the farthest off has 2e-09 m³, and its spacings make 1e-09 m³"));
   for (const double part : {1e-3, 2.0}) EXPECT_TRUE(has(told_of_volumes({2, 2, 5}, part), fit)) << part;
   EXPECT_FALSE(has(told_of_volumes({6, 6, 1}, 0.1), fit));  // the thickness of one layer is its volumes'
+  EXPECT_TRUE(has(told_of_volumes({4, 4, 5}, 1, false, false, 2), fit));
+  EXPECT_FALSE(has(told_of_volumes({4, 4, 5}, 1, false, false, 0.5), fit));  // partly filled cells
   for (const int layers : {2, 3, 5}) {
     EXPECT_FALSE(has(told_of_volumes({5.0, 5.0, double(layers)}, 1, false, true), fit)) << layers;
   }

@@ -502,15 +502,19 @@ std::string error_of(Parts parts, const Lattice& lattice = {}) {
 // Partly filled cells bring their surfaces: of a box that was not made to repeat, those at its ends, too.
 TEST(PeriodicSides, TellOfCellsThatEndAtThem) {
   const RunFolder folder;
-  const auto told = [&](bool ends) {
+  enum class Face { none, at_end, inclined };
+  const auto told = [&](Face face) {
     io::Mesh mesh = Lattice{}.mesh();
     io::Mesh::Block& bar = mesh.blocks[0];
     for (std::size_t e = 0; e < bar.elements(); ++e) {
       const Vector middle = 0.5 * (mesh.nodes[bar.nodes[8 * e]] + mesh.nodes[bar.nodes[8 * e + 6]]);
       io::PartialCell cell{.volume = 1e-9, .centroid = middle};
       cell.moments.head<3>().setConstant(1e-6 / 12);
-      if (ends && middle[0] < 1e-3) cell.surface[0] = -1e-6, cell.surface_moments(0, 0) = 0.5e-9;
-      if (ends && middle[0] > 3e-3) cell.surface[0] = 1e-6, cell.surface_moments(0, 0) = 0.5e-9;
+      const bool is_lower = middle[0] < 1e-3;
+      if (face != Face::none && (is_lower || middle[0] > 3e-3)) {
+        cell.surface[0] = is_lower ? -1e-6 : 1e-6;
+        cell.surface_moments(0, 0) = face == Face::at_end ? 0.5e-9 : 0.05e-9;  // m² times the distance from the middle
+      }
       bar.cells.push_back(cell);
     }
     run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
@@ -522,8 +526,9 @@ TEST(PeriodicSides, TellOfCellsThatEndAtThem) {
     const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
     return set_up(deck, folder.world).warnings.find("their mesh was not made to repeat") != std::string::npos;
   };
-  EXPECT_FALSE(told(false));
-  EXPECT_TRUE(told(true));
+  EXPECT_FALSE(told(Face::none));
+  EXPECT_FALSE(told(Face::inclined));  // a strut that goes on
+  EXPECT_TRUE(told(Face::at_end));
 }
 
 // A crack along the sides cuts the bonds between faces that are alike; a mesh whose faces are not is told of.
