@@ -97,17 +97,23 @@ void add_lattices(const std::vector<LatticeFrame>& frames, const CandidatePool& 
   }
 }
 
+// The distance within which all neighbors are; blocks get horizons without the factors of searches.
+double take_reach(std::vector<BlockHorizons>& blocks, const std::vector<BlockBonds>& bonds) {
+  double reach = std::numeric_limits<double>::min();  // for a rank without points
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    reach = std::max(reach, blocks[b].largest * with_round_off);
+    blocks[b].smallest /= bonds[b].search_factor(), blocks[b].largest /= bonds[b].search_factor();
+  }
+  return reach;
+}
+
 }  // namespace
 
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
                    const std::vector<Crack>& cracks, std::vector<Mirror> mirrors, std::vector<Period> periods) {
   const std::vector<double> own_horizons = horizons_of(cloud, bonds);
   std::vector<BlockHorizons> blocks = block_horizons(cloud, own_horizons, bonds, communicator);
-  double reach = std::numeric_limits<double>::min();  // for a rank without points
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    reach = std::max(reach, blocks[b].largest * with_round_off);
-    blocks[b].smallest /= bonds[b].search_factor(), blocks[b].largest /= bonds[b].search_factor();
-  }
+  const double reach = take_reach(blocks, bonds);
   const int owned = static_cast<int>(cloud.size());
   std::stable_sort(mirrors.begin(), mirrors.end(), [](const Mirror& a, const Mirror& b) { return a.body < b.body; });
   const Mirrored all = mirrored(std::move(mirrors), periods, cloud, bonds, reach, communicator);
@@ -131,12 +137,11 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   Families families{.lists = lists_of(stencils, search, pool, cloud.blocks, order, members.local)};
   add_lattices(frames, pool, members, owned, families);
   Halo halo(communicator, mine.ids, members.ghost_ids, members.ghost_owners, all.images);
-  const int ghosts = static_cast<int>(order.ghosts.size());
   return {communicator,
           std::move(mine),
           order.interior,
           owned,
-          ghosts,
+          static_cast<int>(order.ghosts.size()),
           std::move(members.sites),
           std::move(blocks),
           std::move(families),

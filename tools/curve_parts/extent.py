@@ -9,8 +9,8 @@ from exodus import names_in, opened
 SOLIDS = ("HEX", "TET")
 NUMBERS = ["centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "moment_zz"]
 
-# Of each element, m: the corners of its box, the center and the half edges of its material. Partly filled cells count as prisms
-# (half edges: √3 times their radii of gyration).
+# A row for each element, in m: `low` and `high` are the corners of its box, `middle` is the center of its material and `half` are the
+# half edges of it. A partly filled cell counts as a prism, whose half edges are √3 times its radii of gyration.
 Elements = namedtuple("Elements", "low high middle half are_partly_filled")
 
 

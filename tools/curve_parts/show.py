@@ -6,7 +6,8 @@ from strut_tools import save_picture
 
 def say(about, found):
     for what, text in about.items():
-        print(f"{what:<18} {text}")
+        if text:
+            print(f"{what:<18} {text}")
     print()
     for m in found:
         value = "-" if m.value is None else f"{m.value:.5g}"

@@ -1,13 +1,11 @@
-"""Nominal stress and strain from a deck and its history: the columns of force and shortening, area and height; the options
-that name them."""
+"""Force and shortening from a deck and its history; the options that name them."""
 import itertools
 import os
 import re
-from dataclasses import dataclass, field
 
 import numpy as np
 import strut_tools
-from decks import box_of, integrals, value_at, value_in
+from decks import integrals, value_at, value_in
 from strut_tools import Parser, fail, nearest
 
 from . import extent
@@ -49,14 +47,6 @@ def history(path):
     if len(back):
         fail(f"{path}: its times do not rise from row to row, from {times[back[0]]:g} to {times[back[0] + 1]:g} s (two runs in one file?)")
     return table
-
-
-@dataclass
-class Sample:
-    area: float      # m²
-    height: float    # m
-    density: float | None  # kg/m³, mass over area and height
-    found: dict = field(default_factory=dict)  # how each was found
 
 
 def column(table, name, option):
@@ -299,122 +289,3 @@ def layers(table, axis, wanted=None):
     places, velocities = (np.stack([table[name] for _, name in sorted(kinds[kind])], axis=1)
                           for kind in ("Coordinate", "Velocity"))
     return places, velocities, places.shape[1]
-
-
-# Area, height, density
-
-
-def sample(deck, axis, block, words):
-    found, across = {}, [a for a in range(3) if a != axis]
-    size = size_of(deck, block, words, found) if words.area is None or words.height is None else None
-    area = words.area if words.area is not None else size[across[0]] * size[across[1]]
-    height = words.height if words.height is not None else size[axis]
-    return Sample(area, height, density_of(deck, block, area * height, words, found), found)
-
-
-def size_of(deck, block, words, found):
-    recipe = deck and deck.recipe()
-    body = recipe and recipe.body(block)
-    if body and body.get("shape") in ("foam", "box", "lattice"):
-        found["size"] = f"from {recipe.path}"
-        return box_of(body)
-    lengths = [deck and deck.get("Discretization", "TensorProduct3DMeshGenerator", f"{c} Length") for c in "XYZ"]
-    if block is None and all(lengths):
-        found["size"] = f"from the grid of {deck.path}"
-        return [float(length) for length in lengths]
-    mesh = deck and deck.file("Discretization", "Input Mesh File")
-    size = mesh and extent.size_of(mesh, block)
-    if size is not None:
-        found["size"] = f"from the elements of {mesh}"
-        return size
-    result = result_of(deck, words)
-    if result is None:
-        fail("nothing says how large the sample is: name --area (m2) and --height (m)")
-    nodes, volumes = points_of(result, block)
-    places = result.reference[nodes]
-    at_nodes = deck.get("Discretization", "Points") == "Nodes"
-    found["size"] = f"from the points of {result.path}" + ("" if at_nodes else " and half a spacing around them")
-    return np.ptp(places, axis=0) + (0 if at_nodes else edges_of_cells(places, volumes.max()))
-
-
-def edges_of_cells(places, volume):
-    """Edges (m) of the cells around points: the steps of their lattice, if its cells have this volume, else a cube's."""
-    cube = np.cbrt(volume)
-    ways = [np.diff(np.unique(places[:, a])) for a in range(3)]
-    steps = [way[way > 1e-4 * cube] for way in ways]  # smaller ones are round-off
-    edges = np.array([step.min() if len(step) else np.nan for step in steps])
-    alone = np.isnan(edges)  # one layer
-    if alone.any():
-        edges[alone] = (volume / np.prod(edges[~alone]))**(1 / alone.sum())
-    multiples = all(np.allclose(step / edge, np.round(step / edge), rtol=0, atol=1e-3) for step, edge in zip(steps, edges))
-    return edges if multiples and np.isclose(np.prod(edges), volume, rtol=1e-3) else cube
-
-
-def result_of(deck, words):
-    """The result of the deck, opened; None if there is none (yet)."""
-    from picture_parts.result import Result
-
-    name = deck and deck.get("Output", "Output Filename")
-    if not name:
-        return None
-    path = os.path.join(words.results, name if os.path.splitext(name)[1] else name + ".e")
-    return Result(path) if os.path.isfile(path) else None
-
-
-def points_of(result, block):
-    """Nodes and volumes of a block, or of all."""
-    blocks = result.blocks_of(block and [block])
-    if any(b.volumes is None for b in blocks):
-        fail(f"{result.path} does not say how large its points are: name --area (m2) and --height (m)")
-    return np.concatenate([b.nodes for b in blocks]), np.concatenate([b.volumes for b in blocks])
-
-
-def block_of(deck, names, words):
-    """The crushed block: --block, that of a contact force, else the only one or the one named foam; None: all."""
-    if words.block:
-        return words.block
-    for name in names:
-        match = FORCES.fullmatch(name)
-        if match and match[1] == "Contact_Force":
-            return match[3].split(":")[0]
-    recipe = deck and deck.recipe()
-    foams = [b.get("name", "body") for b in (recipe.bodies() if recipe else []) if b.get("shape") == "foam"]
-    if len(foams) == 1:
-        return foams[0]
-    blocks = deck and [value_in(keys, "Block Names") for keys in deck.sections("Blocks").values()]
-    return "foam" if blocks and len(blocks) > 1 and "foam" in blocks else None
-
-
-def density_of(deck, block, volume, words, found):
-    if words.density is not None or deck is None:
-        return words.density
-    result = result_of(deck, words)
-    if result is not None and all(b.volumes is not None for b in result.blocks):
-        return density_of_points(deck, result, block, volume, found)
-    recipe = deck.recipe()
-    body = recipe and recipe.body(block)
-    material = body and "relative_density" in body and material_density(deck, block or body.get("name", "body"))
-    if not material:
-        return None
-    found["density"] = f"from {recipe.path}"
-    return material * float(body["relative_density"])
-
-
-def density_of_points(deck, result, block, volume, found):
-    """The mass of all blocks of the sample, each of its own material, over the volume."""
-    volumes = {b.name: b.volumes.sum() for b in result.blocks_of(block and [block]) if len(b.nodes)}
-    materials = {name: material_density(deck, name) for name in volumes}
-    unknown = next((name for name, value in materials.items() if not value), None)
-    found["density"] = f"from the points of {result.path}" if unknown is None else f"nowhere: {deck.path} has none for block '{unknown}'"
-    return sum(materials[name] * volumes[name] for name in volumes) / volume if unknown is None else None
-
-
-def material_density(deck, block):
-    """Density of the material of a block, kg/m³."""
-    sections = [(keys, (value_in(keys, "Block Names") or "").split()) for keys in deck.sections("Blocks").values()]
-    named = any(block in names for _, names in sections)
-    for keys, names in sections:
-        if block in names or "all" in names or ("default" in names and not named):
-            value = deck.get("Materials", value_in(keys, "Material") or "", "Density")
-            return value and float(value)
-    return None

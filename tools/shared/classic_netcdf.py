@@ -1,4 +1,5 @@
 """The length of a classic netCDF file by its header (as in src/io/netcdf/classic_netcdf.cpp)."""
+import math
 import os
 import struct
 
@@ -26,19 +27,15 @@ def promised(file, version):
 
     def attribute():
         skip(number())
-        size = SIZES[number(">I")]
-        skip(number() * size)
+        skip(SIZES[number(">I")] * number())
 
     def variable():
-        """(whether it has an entry per record, bytes of one, its offset)"""
         skip(number())
         lengths = [dimensions[number()] for _ in range(number())]
         repeated(attribute)
-        size = SIZES[number(">I")]
-        for length in lengths:
-            size *= length or 1
+        size = SIZES[number(">I")] * math.prod(length or 1 for length in lengths)
         number()  # the stored size, which wraps around for large variables
-        return 0 in lengths, size, number(offset_form)
+        return 0 in lengths, size, number(offset_form)  # whether it has an entry per record, bytes of one, its offset
 
     records, dimensions = number(), repeated(dimension)
     repeated(attribute)

@@ -1,8 +1,8 @@
 """The curves of a study: for each value of one name, the mean over its runs and the band from the least to the greatest."""
-import csv
 import os
 
 import numpy as np
+import strut_tools
 
 STRAIN, STRESS = "Strain (1)", "Stress (Pa)"
 EARLY = 0.02  # strain of the spike of an impact, which would hide the rest
@@ -15,10 +15,8 @@ def curves_of(cases, rows, name):
         path = os.path.join(case.folder, os.path.splitext(case.deck)[0] + "-curve.csv")
         if row["error"] or not os.path.isfile(path):
             continue
-        with open(path, newline="") as file:
-            columns, *lines = csv.reader(file)
-        table = dict(zip(columns, np.array(lines, float).T))
-        for column in (c for c in columns if c.startswith(STRESS)):
+        table = strut_tools.columns(path)
+        for column in (c for c in table if c.startswith(STRESS)):
             found.setdefault(column, {}).setdefault(case.values[name], []).append((table[STRAIN], table[column]))
     return found
 

@@ -4,6 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import ndimage
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkImplicitPolyDataDistance, vtkPolyDataConnectivityFilter, vtkPolyDataNormals
+from vtkmodules.vtkImagingStencil import vtkImageStencilToImage, vtkPolyDataToImageStencil
+from vtkmodules.vtkIOGeometry import vtkSTLReader
 
 from images import Image
 from solid import fills_of
@@ -17,9 +23,6 @@ MOSTLY_OUT = 0.1  # largest volume fraction in bodies of a piece that counts as 
 
 def read(path, edge, factor=1.0, in_part=False):
     """edge: of a voxel, m; factor: the unit of the file's lengths, m; in_part: distances are used, not their signs alone."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkIOGeometry import vtkSTLReader
-
     check_input(path)
     reader = vtkSTLReader()
     with captured() as said:
@@ -56,8 +59,6 @@ def read(path, edge, factor=1.0, in_part=False):
 
 
 def check_closed(path, surface):
-    from vtkmodules.vtkFiltersCore import vtkFeatureEdges
-
     edges = vtkFeatureEdges()
     edges.SetInputData(surface)
     edges.BoundaryEdgesOn(), edges.NonManifoldEdgesOn(), edges.FeatureEdgesOff(), edges.ManifoldEdgesOff()
@@ -76,11 +77,6 @@ class Piece:
 
 def pieces_of(surface):
     """The connected pieces of a closed surface, the largest first."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-    from vtkmodules.vtkFiltersCore import vtkPolyDataConnectivityFilter, vtkPolyDataNormals
-
     alike, regions = vtkPolyDataNormals(), vtkPolyDataConnectivityFilter()
     alike.SetInputData(surface)
     alike.ConsistencyOn(), alike.SplittingOff()
@@ -149,9 +145,6 @@ def part_inside(piece, low, edge, shape):
 
 def inside_of(surface, low, edge, shape):
     """True for each voxel (z, y, x) whose middle is inside."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkImagingStencil import vtkImageStencilToImage, vtkPolyDataToImageStencil
-
     stencil, image = vtkPolyDataToImageStencil(), vtkImageStencilToImage()
     stencil.SetInputData(surface)
     stencil.SetOutputSpacing(edge, edge, edge)
@@ -166,10 +159,6 @@ def inside_of(surface, low, edge, shape):
 
 def distances(surface, inside, low, edge):
     """The signed distances, and True for each voxel whose middle is on a triangle."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkDoubleArray
-    from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance
-
     padded = np.pad(inside, 1)
     far = (ndimage.distance_transform_edt(padded) + ndimage.distance_transform_edt(~padded))[1:-1, 1:-1, 1:-1] - 0.5
     values = np.where(inside, far, -far).astype(np.float32) * np.float32(edge)

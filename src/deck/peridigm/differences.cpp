@@ -10,10 +10,8 @@ namespace strut::deck {
 
 namespace {
 
-bool has_any(const List& list, std::initializer_list<const char*> names) {
-  return std::ranges::any_of(list.parameters, [&](const Parameter& one) {
-    return std::ranges::any_of(names, [&](const char* name) { return one.name == name; });
-  });
+bool has_any(List& list, std::initializer_list<const char*> names) {
+  return std::ranges::any_of(names, [&](const char* name) { return find_parameter(list, name); });
 }
 
 bool sets_are_parameters(List* conditions) {
@@ -193,7 +191,7 @@ bool is_peridigms(List& deck) {
   return deck.name == "Peridigm" || has_missing_ability(deck) || has_peridigms_law(deck) ||
          section("Compute Class Parameters") || has_peridigms_output(deck) || has_peridigms_solver(deck) ||
          (mesh && has_any(*mesh, {"Omit Bonds Between Blocks", "Store Exodus Mesh"})) ||
-         std::ranges::any_of(sections_of(deck, {"Materials"}), [](const List& one) {
+         std::ranges::any_of(sections_of(deck, {"Materials"}), [](List& one) {
            return has_any(one, {"Hourglass Coefficient", "Apply Shear Correction Factor", "Enable Flaw",
                                 "Disable Plasticity", "Apply Automatic Differentiation Jacobian"});
          });

@@ -15,42 +15,32 @@ namespace {
 
 template <class Named>
 Named* find(std::vector<Named>& all, const std::string& name) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+  const auto found = std::ranges::find(all, name, &Named::name);
   return found == all.end() ? nullptr : &*found;
 }
 
 const char* const needleman = "Viscoplastic Needleman Correspondence";
 
-// A key whose only meaningful value here switches it off. Another value is an error, or gets a note.
-struct OnlyOff {
-  const char *key, *off, *what;
-  bool is_reported = false;
+// Keys without effect here, which get a note unless they are false.
+const std::pair<const char*, const char*> without_effect_here[] = {
+    {"Apply Shear Correction Factor",
+     "there is no correction of moduli at surfaces (Peridigm 1.6 has it for 'Elastic Plastic Hardening' alone)"},
+    {"Apply Automatic Differentiation Jacobian", "equilibria are found in another way"},
+    {"Finite Difference Probe Length", "equilibria are found in another way"},
 };
-const OnlyOff only_off[] = {
-    {"Apply Shear Correction Factor", "false",
-     "there is no correction of moduli at surfaces (Peridigm 1.6 has it for 'Elastic Plastic Hardening' alone)", true},
-    {"Enable Flaw", "false", "there are no flaws in a material; make them in the mesh"},
-    {"Apply Automatic Differentiation Jacobian", "", "equilibria are found in another way"},
-    {"Finite Difference Probe Length", "", "equilibria are found in another way"},
-};
-
-bool is_off(const Parameter& parameter, const OnlyOff& key) {
-  if (!*key.off) return true;
-  const auto number = to_real(parameter.value);
-  return tidied(parameter.value) == key.off || (number && *number == 0 && std::string(key.off) == "0");
-}
 
 void drop_what_is_off(List& material, const std::string& path, Problems& problems) {
-  for (const OnlyOff& key : only_off) {
-    const Parameter* given = find_parameter(material, key.key);
-    if (!given) continue;
-    const std::string where = path_to(path, key.key);
-    if (!is_off(*given, key) && !key.is_reported) {
-      problems.add(where, "'" + given->value + "'; expected " + key.off + ": " + key.what);
-    } else if (!*key.off || !is_off(*given, key)) {
-      problems.note(where, std::string("has no effect here: ") + key.what);
-    }
-    erase_parameter(material, key.key);
+  const Parameter* flaw = find_parameter(material, "Enable Flaw");
+  if (flaw && tidied(flaw->value) != "false") {
+    problems.add(path_to(path, flaw->name),
+                 "'" + flaw->value + "'; expected false: there are no flaws in a material; make them in the mesh");
+  }
+  erase_parameter(material, "Enable Flaw");
+  for (const auto& [key, why] : without_effect_here) {
+    const Parameter* given = find_parameter(material, key);
+    if (given && tidied(given->value) != "false")
+      problems.note(path_to(path, key), std::string("has no effect here: ") + why);
+    erase_parameter(material, key);
   }
 }
 
@@ -106,14 +96,20 @@ void translate_disabled_plasticity(List& material, const std::string& path, Prob
   problems.note(path_to(path, "Disable Plasticity"), "makes it the law 'Elastic', as in Peridigm");
 }
 
+// Moves a key, if it is there, into a section of its own.
+void move(List& material, const char* from, List& section, const char* to) {
+  const Parameter* given = find_parameter(material, from);
+  if (!given) return;
+  section.parameters.push_back({to, given->type, given->value});
+  erase_parameter(material, from);
+}
+
 void translate_isotropic_hardening(List& material) {
   Parameter* model = find_parameter(material, "Material Model");
   if (!model || model->value != "Isotropic Hardening Correspondence") return;
   model->value = "Elastic Plastic Correspondence";
   List hardening{"Hardening", {{"Type", "string", "Linear"}}, {}};
-  if (const Parameter* modulus = find_parameter(material, "Hardening Modulus"))
-    hardening.parameters.push_back(*modulus);
-  erase_parameter(material, "Hardening Modulus");
+  move(material, "Hardening Modulus", hardening, "Hardening Modulus");
   material.lists.push_back(hardening);
 }
 
@@ -124,17 +120,11 @@ void translate_needleman(List& material, const std::string& path, Problems& prob
   model->value = "Elastic Plastic Correspondence";
   List hardening{"Hardening", {{"Type", "string", "Needleman"}}, {}},
       rate{"Rate", {{"Type", "string", "Needleman"}}, {}};
-  const auto move = [&material](const char* from, List& section, const char* to) {
-    const Parameter* given = find_parameter(material, from);
-    if (!given) return;
-    section.parameters.push_back({to, given->type, given->value});
-    erase_parameter(material, from);
-  };
-  move("Strain Hardening Exponent", hardening, "Exponent");
-  move("Reference Strain 0", hardening, "Reference Strain");
-  move("Reference Strain 1", hardening, "Softening Strain");
-  move("Rate Hardening Exponent", rate, "Exponent");
-  move("Reference Strain Rate", rate, "Reference Rate");
+  move(material, "Strain Hardening Exponent", hardening, "Exponent");
+  move(material, "Reference Strain 0", hardening, "Reference Strain");
+  move(material, "Reference Strain 1", hardening, "Softening Strain");
+  move(material, "Rate Hardening Exponent", rate, "Exponent");
+  move(material, "Reference Strain Rate", rate, "Reference Rate");
   material.lists.push_back(hardening), material.lists.push_back(rate);
   problems.note(
       path_to(path, "Reference Strain Rate"),
@@ -178,10 +168,10 @@ void translate_materials(List& deck, bool is_theirs, Problems& problems) {
 // Converts a horizon for all blocks, as in older decks.
 void translate_horizon(List& discretization, List& blocks, Problems& problems) {
   const Parameter* given = find_parameter(discretization, "Horizon");
-  if (!given) return;
-  for (List& block : blocks.lists) {
-    if (find_parameter(block, "Horizon") || find_parameter(block, "Horizon Factor")) return;
-  }
+  const auto has_own = [](List& block) {
+    return find_parameter(block, "Horizon") || find_parameter(block, "Horizon Factor");
+  };
+  if (!given || std::ranges::any_of(blocks.lists, has_own)) return;
   for (List& block : blocks.lists) block.parameters.push_back(*given);
   erase_parameter(discretization, "Horizon");
   problems.note("Discretization > Horizon", "is taken for every section of Blocks");
@@ -279,8 +269,7 @@ void straighten(List& filter, const std::string& path, Problems& problems) {
 
 // Peridigm watches nothing: its runs go on, and so do these, with a warning.
 void go_on_beyond_limits(List& deck) {
-  if (find_list(deck, "Watch")) return;
-  deck.lists.push_back({"Watch", {{"Beyond Limits", "string", "Continue"}}, {}});
+  if (!find_list(deck, "Watch")) deck.lists.push_back({"Watch", {{"Beyond Limits", "string", "Continue"}}, {}});
 }
 
 void read_mesh_as_peridigm(List& deck, Problems& problems) {
@@ -327,10 +316,8 @@ std::span<List> sections_of(List& deck, std::initializer_list<const char*> path)
 }
 
 std::string value_of(const List& list, const std::string& name) {
-  for (const Parameter& one : list.parameters) {
-    if (one.name == name) return one.value;
-  }
-  return "";
+  const auto found = std::ranges::find(list.parameters, name, &Parameter::name);
+  return found == list.parameters.end() ? "" : found->value;
 }
 
 std::optional<double> real_of(const List& list, const std::string& name) { return to_real(value_of(list, name)); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "base/errors.hpp"
 #include "base/numbers.hpp"
@@ -82,7 +83,7 @@ const std::vector<std::string> scalars = to_words(
     "Von_Mises_Stress Equivalent_Plastic_Strain Dilatation Weighted_Volume Number_Of_Neighbors Volume Damage Horizon");
 
 bool among(const std::vector<std::string>& all, const std::string& name) {
-  return std::find(all.begin(), all.end(), name) != all.end();
+  return std::ranges::find(all, name) != all.end();
 }
 
 // "Cauchy_Stress_XY" is Cauchy_Stress of a bond: a field there, not here.
@@ -139,11 +140,7 @@ class Outputs {
     std::vector<List> sections = std::move(deck_.lists);
     deck_.lists.clear();
     for (List& section : sections) {
-      if (is_output(section)) {
-        add(section);
-      } else {
-        deck_.lists.push_back(section);
-      }
+      is_output(section) ? add(section) : deck_.lists.push_back(section);
     }
     add_history();
   }
@@ -216,14 +213,11 @@ class Outputs {
     for (Parameter one : variables.parameters) {
       if (one.type == "bool" && to_boolean(one.value) == false) continue;
       const std::string path = section + " > Output Variables > " + one.name;
-      if (take_number(one.name, path)) {
-        had_numbers = true;
-        continue;
-      }
+      const bool is_number = take_number(one.name, path);
+      had_numbers = had_numbers || is_number;
       one.name = whole_field(one.name);
-      if (take_missing(one, section)) continue;
-      const auto same = [&](const Parameter& other) { return other.name == one.name; };
-      if (std::none_of(fields.begin(), fields.end(), same)) fields.push_back(one);
+      if (is_number || take_missing(one, section)) continue;
+      if (std::ranges::find(fields, one.name, &Parameter::name) == fields.end()) fields.push_back(one);
     }
     variables.parameters = fields;
     return had_numbers;
@@ -252,11 +246,10 @@ class Outputs {
     if (!is_missing(field.name, is_theirs_)) return false;
     const auto known = missing_fields.find(field.name);
     const std::string instead = known == missing_fields.end() ? "" : known->second;
-    if (!among(reported_, field.name)) {
+    if (reported_.insert(field.name).second) {
       problems_.note(section + " > Output Variables > " + field.name,
                      "is not written: there is no such field here" + (instead.empty() ? "" : "; " + instead));
     }
-    reported_.push_back(field.name);
     return true;
   }
 
@@ -287,7 +280,8 @@ class Outputs {
   bool is_theirs_;
   Problems& problems_;
   std::map<std::string, std::vector<std::string>> computed_;  // label of each compute class, with its columns
-  std::vector<std::string> columns_, reported_;
+  std::vector<std::string> columns_;
+  std::set<std::string> reported_;
   std::string fields_;  // name of the section with the fields
   std::string file_;    // of the totals
   std::optional<int> frequency_;

@@ -56,13 +56,7 @@ void check_condition(const std::vector<Material>& materials, const std::string& 
     problems.note(path, "has no effect: no material has a Thermal Expansion Coefficient");
 }
 
-}  // namespace
-
-void check_quasi_static(const Solver& solver, const std::vector<Condition>& conditions,
-                        const std::vector<ContactModel>& contact_models, const std::vector<Material>& materials,
-                        const std::vector<Block>& blocks, const std::vector<NamedDamageModel>& damage_models,
-                        bool steps_follow, Problems& problems) {
-  if (!solver.quasi_static) return;
+void check_types(const std::vector<Condition>& conditions, bool steps_follow, Problems& problems) {
   for (const Condition& condition : conditions) {
     if (steps_follow && !std::holds_alternative<InitialDisplacement>(condition.kind)) continue;
     if (problems.about("Boundary Conditions > " + condition.name + " > Type")) continue;  // a type that there is not
@@ -78,6 +72,16 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
                    "has no meaning with Solver > QuasiStatic, which knows no inertia; expected Travel");
     }
   }
+}
+
+}  // namespace
+
+void check_quasi_static(const Solver& solver, const std::vector<Condition>& conditions,
+                        const std::vector<ContactModel>& contact_models, const std::vector<Material>& materials,
+                        const std::vector<Block>& blocks, const std::vector<NamedDamageModel>& damage_models,
+                        bool steps_follow, Problems& problems) {
+  if (!solver.quasi_static) return;
+  check_types(conditions, steps_follow, problems);
   for (const ContactModel& one : contact_models) {
     if (one.model.friction == 0 || std::holds_alternative<contact::SurfaceLaw>(one.model.law)) continue;
     problems.add("Contact > Models > " + one.name + " > Friction Coefficient",

@@ -12,7 +12,7 @@ from tool_test import InFolder
 import numpy as np
 import netCDF4
 import exodus
-from curve_parts import extent, measures, shock, source
+from curve_parts import extent, measures, samples, shock, source
 from decks import Deck, Recipe
 
 E, YIELD, UNLOADING = 100e6, 2e6, 150e6  # Pa
@@ -154,12 +154,12 @@ class Extents(InFolder):
         deck.write_text("A: {Discretization: {Input Mesh File: m.g}}\n")
         for lines, expected in (("size = 2 3 4", [2, 3, 4]), ("count = 2 3 4\ncell = 0.5", [1, 1.5, 2]), ("count = 4\ncell = 0.5", [2, 2, 2])):
             (self.folder / "m.recipe").write_text(f"shape = lattice\nlattice = bcc\n{lines}\n")
-            self.assertEqual(source.size_of(Deck(str(deck)), None, None, {}), expected)
+            self.assertEqual(samples.size_of(Deck(str(deck)), None, None, {}), expected)
 
     def test_a_grid_of_the_deck_is_as_large_as_its_lengths(self):
         deck = self.folder / "a.yaml"
         deck.write_text("A: {Discretization: {Type: PdQuickGrid, TensorProduct3DMeshGenerator: {X Length: 2, Y Length: 3.0, Z Length: 4e-3}}}\n")
-        self.assertEqual(source.size_of(Deck(str(deck)), None, None, {}), [2, 3, 4e-3])
+        self.assertEqual(samples.size_of(Deck(str(deck)), None, None, {}), [2, 3, 4e-3])
 
     def test_what_moves_outer_points_leaves_half_a_spacing_at_each_end(self):
         self.write(np.array([[0.5, 0.5, z + 0.5] for z in range(5)]))
@@ -189,7 +189,7 @@ class Extents(InFolder):
         for places, volume, expected in ((grid(4, 4, 4) * edges, 2e-9, edges), (grid(4, 1, 4) * edges, 2e-9, edges),
                                          (grid(4, 4, 4)[::3] * edges, 2e-9, edges), (grid(2, 1, 1) * 1e-3, 1e-9, [1e-3] * 3),
                                          (irregular, 8e-9, 2e-3), (np.zeros((1, 3)), 8e-9, 2e-3)):
-            np.testing.assert_allclose(source.edges_of_cells(places, volume), expected, rtol=1e-9)
+            np.testing.assert_allclose(samples.edges_of_cells(places, volume), expected, rtol=1e-9)
 
     def test_cells_that_reach_beyond_the_image_do_not_count_as_full(self):
         # Along x the image ends in the middle of the last cells, which hold a half each; one strut there ends before.
@@ -335,7 +335,7 @@ class Runs(InFolder):
         self.made("block.xml")
         strain = [float(row[1]) for row in self.table("block-curve.csv")[1:]]
         np.testing.assert_allclose(strain, 0.5 * times * (1 - times), atol=1e-7)  # of 20 mm; the rim moves by 1e-9 m
-        self.assertEqual(source.material_density(Deck(str(self.folder / "block.xml")), "foam"), 4000)
+        self.assertEqual(samples.material_density(Deck(str(self.folder / "block.xml")), "foam"), 4000)
 
     def test_the_density_of_several_blocks_is_their_mass_over_the_volume(self):
         volumes = {"low": np.full(27, 1e-9), "high": np.full(9, 1e-9), "empty": np.zeros(0)}
@@ -348,11 +348,11 @@ class Runs(InFolder):
             material % 4000, material % 1000 + (material % 3000).replace("stuff", "heavy"))
         (self.folder / "block.xml").write_text(deck)
         for block, expected in ((None, (27 * 1000 + 9 * 3000) / 36), ("low", 27 / 36 * 1000), ("high", 9 / 36 * 3000)):
-            found = source.density_of_points(Deck(str(self.folder / "block.xml")), result, block, 36e-9, {})
+            found = samples.density_of_points(Deck(str(self.folder / "block.xml")), result, block, 36e-9, {})
             self.assertAlmostEqual(found, expected, 9, msg=block)
         (self.folder / "block.xml").write_text(deck.replace('"high"', '"top"'))
         how = {}
-        self.assertIsNone(source.density_of_points(Deck(str(self.folder / "block.xml")), result, None, 36e-9, how))
+        self.assertIsNone(samples.density_of_points(Deck(str(self.folder / "block.xml")), result, None, 36e-9, how))
         self.assertEqual(how, {"density": f"nowhere: {self.folder}/block.xml has none for block 'high'"})
 
     def test_a_prescribed_velocity_shortens_by_its_integral_since_the_start_of_the_run(self):

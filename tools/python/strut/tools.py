@@ -42,9 +42,11 @@ def curve(source, out=None, **options):
         to = out or os.path.join(folder, "curve")
         text = tool("curve", path, to, **results, **options)
         stem = os.path.join(to, os.path.splitext(os.path.basename(path))[0])
-        table = columns(f"{stem}-curve.csv")
+        head, *rows = rows_of(f"{stem}-curve.csv")
+        table = dict(zip(head, np.array(rows, float).T))
         stress = {name.removeprefix(STRESS): values for name, values in table.items() if name.startswith(STRESS)}
-        return Curve(table["Strain (1)"], stress, table["Time (s)"], measures(f"{stem}-measures.csv"), text)
+        measures = {name: number(value) for name, value, *_ in rows_of(f"{stem}-measures.csv")[1:]}
+        return Curve(table["Strain (1)"], stress, table["Time (s)"], measures, text)
     return on_first(made)
 
 
@@ -53,8 +55,7 @@ def stiffness(deck, mesh, out=None, **options):
     def made(folder):
         to = out or os.path.join(folder, "stiffness")
         tool("stiffness", write_deck(deck, mesh, folder), to, **options)
-        with open(os.path.join(to, "stiffness.csv"), newline="") as file:
-            rows = list(csv.reader(file))[1:]
+        _, *rows = rows_of(os.path.join(to, "stiffness.csv"))
         return {kind: np.array([row[2:] for row in rows if row[0] == kind], float) for kind in dict.fromkeys(r[0] for r in rows)}
     return on_first(made)
 
@@ -79,8 +80,8 @@ def convergence(study, out, name, **options):
     measure, as a dictionary."""
     def made(_):
         tool("study", study, out, converge=name, **options)
-        with open(os.path.join(out, "convergence.csv"), newline="") as file:
-            return [{key: value if key in TEXTS else number(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        head, *rows = rows_of(os.path.join(out, "convergence.csv"))
+        return [{key: value if key in TEXTS else number(value) for key, value in zip(head, row)} for row in rows]
     return on_first(made)
 
 
@@ -153,15 +154,9 @@ def write_deck(deck, mesh, folder):
     return path
 
 
-def columns(path):
+def rows_of(path):
     with open(path, newline="") as file:
-        head, *rows = csv.reader(line for line in file if not line.startswith("#"))
-    return dict(zip(head, np.array(rows, float).T))
-
-
-def measures(path):
-    with open(path, newline="") as file:
-        return {row[0]: number(row[1]) for row in list(csv.reader(file))[1:]}
+        return list(csv.reader(file))
 
 
 def number(text):
