@@ -36,8 +36,8 @@ struct LatticeCell {
 };
 
 // The spacings are those to the nearest points along the axes. They are unknown in a single layer, where they change,
-// where the only neighbor along an axis has another volume (the last cell of a graded mesh), at nodes where any neighbor
-// has one (tetrahedra, halves at surfaces), and on lattices of other kinds, which have points between those.
+// where the only neighbor along an axis has another volume (the last cell of a graded mesh), at nodes where any
+// neighbor has one (tetrahedra, halves at surfaces), and on lattices of other kinds, which have points between those.
 LatticeCell cell_around(const Domain& domain, int i) {
   constexpr double none = std::numeric_limits<double>::infinity();
   Eigen::Array<double, 3, 2> nearest = Eigen::Array<double, 3, 2>::Constant(none), volumes = nearest;

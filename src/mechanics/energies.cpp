@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <vector>
 
 #include "mechanics/formulation/tangent.hpp"
 #include "mechanics/steepness.hpp"
@@ -73,7 +75,7 @@ void sum_over_ranks(std::span<Energies> sums, const Communicator& ranks) {
                   {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.expansion, sum.heat});
   }
   ranks.sum(values);
-  for (const double* of_one = values.data(); Energies& sum : sums) {
+  for (const double* of_one = values.data(); Energies & sum : sums) {
     sum = {of_one[0], of_one[1], of_one[2], of_one[3], of_one[4], of_one[5]};
     of_one += 6;
   }

@@ -73,7 +73,8 @@ Imbalance Equilibrium::measure(bool failed) {
   return worst_of(imbalances(sums, sums.back() > 0));
 }
 
-// Returns the imbalance of each part at the index of its first piece. `sums`: per piece, over all ranks, as in measure().
+// Returns the imbalance of each part at the index of its first piece. `sums`: per piece, over all ranks, as in
+// measure().
 std::vector<Imbalance> Equilibrium::imbalances(const std::vector<double>& sums, bool failed) {
   const std::size_t pieces = parts_.pieces(), periods = body_.domain.periods.size();
   struct Part {
