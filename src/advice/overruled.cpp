@@ -204,7 +204,7 @@ std::string held_ends(const Situation& situation) {
   std::ostringstream text;
   text.precision(3);
   tell_scaled_ends(situation, text);
-  for (const auto& [pair, found] : found_points(body, held_points_of_ends(deck, body.domain.cloud, held))) {
+  for (const auto& [pair, found] : found_points_of_pairs(body, held_points_of_ends(deck, body.domain.cloud, held))) {
     text << "WARNING: '" << deck.conditions[pair[1]].name << "' holds " << found.count
          << " points of the non-reflecting end '" << deck.conditions[pair[0]].name
          << "' along its normal, one of them at " << place_text(found.one)

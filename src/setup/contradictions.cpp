@@ -251,7 +251,7 @@ std::map<IndexPair, std::vector<int>> contradicting_points(const SharedPoints& s
 
 void tell(const std::map<IndexPair, std::vector<int>>& points, const std::string& what, const deck::Deck& deck,
           const Body& body, deck::Problems& problems) {
-  for (const auto& [pair, found] : found_points(body, points)) {
+  for (const auto& [pair, found] : found_points_of_pairs(body, points)) {
     problems.add("Boundary Conditions > " + deck.conditions[pair[1]].name,
                  "contradicts '" + deck.conditions[pair[0]].name + "': both prescribe the " + what + " of " +
                      std::to_string(found.count) + " points, one of them at " + place_text(found.one) +

@@ -50,7 +50,8 @@ std::vector<IndexPair> on_all_ranks(std::vector<IndexPair> pairs, const Communic
   return pairs;
 }
 
-std::map<IndexPair, FoundPoints> found_points(const Body& body, const std::map<IndexPair, std::vector<int>>& lists) {
+std::map<IndexPair, FoundPoints> found_points_of_pairs(const Body& body,
+                                                       const std::map<IndexPair, std::vector<int>>& lists) {
   std::vector<IndexPair> pairs;
   for (const auto& [pair, points] : lists) pairs.push_back(pair);
   pairs = on_all_ranks(std::move(pairs), body.domain.communicator);

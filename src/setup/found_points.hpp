@@ -26,7 +26,8 @@ using IndexPair = std::array<int, 2>;  // of two conditions or blocks
 std::vector<IndexPair> on_all_ranks(std::vector<IndexPair> pairs, const Communicator& communicator);
 
 // Collective. The same for the points of each pair that occurs on any rank, without pairs that have no points.
-std::map<IndexPair, FoundPoints> found_points(const Body& body, const std::map<IndexPair, std::vector<int>>& lists);
+std::map<IndexPair, FoundPoints> found_points_of_pairs(const Body& body,
+                                                       const std::map<IndexPair, std::vector<int>>& lists);
 
 std::string place_text(const Vector& place);  // "(x, y, z) m"
 
