@@ -198,7 +198,8 @@ std::string unstrained_ends(const Situation& situation) {
                       ", held or pressed at ", ends == 1 ? "one end" : "both ends",
                       ": points are in the middles of cells, and half a spacing at ", ends == 1 ? "this" : "each",
                       " end does not strain: expect ", 100 * ends / layers, " % too much stiffness along ", along,
-                      " (none with Points \"Nodes\", or by a Symmetry Plane)\n");
+                      ", and ", 50 * ends / (layers - 0.5 * ends),
+                      " % too much force and strain in flow (none with Points \"Nodes\", or by a Symmetry Plane)\n");
     }
   }
   return text;
