@@ -78,8 +78,9 @@ Branches moved_on(const Hyperelastic& law, const PointStep& step, const Symmetri
     sum.carried += fraction * deviator_of(branch);
     sum.middle += fraction * middle;
     double damped = x * squared(deviator_of(middle));
-    if (x >
-        1) {  // ∫ h:h dt/τ of a constant rate, h = steady + left exp(-t/τ): the end of a hold is far below its middle
+    if (x > 1) {
+      // The middle overstates a hold, whose stress falls far below it. A constant rate gives
+      // h = steady + left exp(−t/t_k); its ∫ h:h dt/t_k is the second argument.
       const Symmetric steady = deviator_of(change / x), left = deviator_of(start) - steady;
       damped = std::min(damped, x * squared(steady) - 2 * std::expm1(-x) * double_dot(steady, left) -
                                     0.5 * std::expm1(-2 * x) * squared(left));

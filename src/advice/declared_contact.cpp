@@ -103,6 +103,13 @@ bool touch(const Vector& xi, double spacing, const Vector& edges, double gap) {
   return xi.norm() <= gap * spacing || (xi.cwiseAbs().array() <= gap * edges.array()).all();
 }
 
+// True if bonds may join blocks: two of them are of one body.
+bool may_join_blocks(const Domain& domain) {
+  std::set<int> bodies;
+  for (const BlockHorizons& block : domain.blocks) bodies.insert(block.body);
+  return bodies.size() < domain.blocks.size();
+}
+
 // Number of bonds between two blocks, both ends counted as one, how many ends are between elements with a node in
 // common, and between cells that touch.
 struct BondsBetween {
@@ -114,7 +121,8 @@ using BondsOfPairs = std::map<IndexPair, BondsBetween>;
 // Collective. The pairs of blocks that are bonded to each other, the lower one first.
 BondsOfPairs bonds_of_pairs(const Domain& domain, const std::vector<int>& blocks, const MeshNodes& nodes) {
   BondsOfPairs mine;
-  for (int i = 0; i < domain.owned && domain.blocks.size() > 1; ++i) {
+  if (!may_join_blocks(domain)) return mine;
+  for (int i = 0; i < domain.owned; ++i) {
     const int here = domain.cloud.blocks[i];
     std::optional<Vector> edges;
     domain.families.for_each(i, [&](int j) {
@@ -259,7 +267,7 @@ std::string bonded_contacts(const Situation& situation) {
 // Where contact is declared, bonded_contacts() tells of them.
 std::string bonded_gaps(const Situation& situation) {
   const Domain& domain = situation.scene.body.domain;
-  if (domain.blocks.size() < 2 || !is_whole(situation.scene.body)) return "";
+  if (!may_join_blocks(domain) || !is_whole(situation.scene.body)) return "";
   std::string text;
   const std::vector<std::string>& names = domain.cloud.block_names;
   const std::set<IndexPair> declared = declared_pairs(situation);
@@ -281,7 +289,7 @@ std::string surfaces_at_seams(const Situation& situation) {
     if (!std::holds_alternative<contact::SurfaceLaw>(one.model.law)) continue;
     met[one.first].insert(one.second), met[one.second].insert(one.first);
   }
-  if (met.empty()) return "";
+  if (met.empty() || !may_join_blocks(domain)) return "";
   const std::vector<std::string>& names = domain.cloud.block_names;
   std::string text;
   for (const auto& [pair, bonds] : bonds_of_pairs(domain, blocks_of(domain), MeshNodes(domain))) {

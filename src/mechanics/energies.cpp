@@ -75,9 +75,9 @@ void sum_over_ranks(std::span<Energies> sums, const Communicator& ranks) {
                   {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.expansion, sum.heat});
   }
   ranks.sum(values);
-  for (const double* of_one = values.data(); Energies & sum : sums) {
-    sum = {of_one[0], of_one[1], of_one[2], of_one[3], of_one[4], of_one[5]};
-    of_one += 6;
+  for (std::size_t n = 0; n < sums.size(); ++n) {
+    const double* of_one = &values[6 * n];
+    sums[n] = {of_one[0], of_one[1], of_one[2], of_one[3], of_one[4], of_one[5]};
   }
 }
 

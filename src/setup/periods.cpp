@@ -59,8 +59,9 @@ std::string objection(const PeriodicSides& sides, const Eigen::AlignedBox3d& box
   return text.str();
 }
 
-// Whether the surface of a point's cell that faces upward (direction 1) or downward (-1) along the axis lies on the
-// side of the cell: inclined struts that go on behind the side face it, too, but nearer to the middle of the cell.
+// True if the body ends at the upper (direction 1) or lower (-1) face of a point's cell along the axis: the cell has a
+// surface that faces this way, a tenth of a spacing or more from its middle on average. The surface of an inclined
+// strut that goes on behind the face is nearer to the middle.
 bool ends_there(const PointCloud& cloud, int axis, double direction, int i) {
   if (cloud.shapes.empty()) return false;
   const double spacing = cloud.spacings[i], facing = direction * cloud.shapes[i].surface[axis];

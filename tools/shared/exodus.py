@@ -106,7 +106,7 @@ class Variables:
             self.put_list("ns", "nodelist", sets, [len(members) > 0 for members in sets.values()], num_node_sets=len(sets))
         for n, members in enumerate(sets.values(), 1):
             if len(members):
-                self.put(f"node_ns{n}", "i4", members + 1, **{f"num_nod_ns{n}": len(members)})
+                self.put(f"node_ns{n}", "i4", members, **{f"num_nod_ns{n}": len(members)})
         for c, x in zip("xyz", nodes.T):
             self.put("coord" + c, "f8", x, num_nodes=len(nodes))
         for n, (_, kind, elements, volumes) in enumerate(blocks, 1):
@@ -120,7 +120,7 @@ class Variables:
     def fill(self):
         for variable, values in self.later:
             if len(values):
-                variable[:] = values + 1 if variable.name.startswith("connect") else values
+                variable[:] = values + 1 if variable.name.startswith(("connect", "node_ns")) else values
 
 
 def write_mesh(path, nodes, blocks, sets):

@@ -64,8 +64,6 @@ std::vector<std::vector<HeldPoint>> held_points(const Body& body, const Constrai
   return points;
 }
 
-// In place: arrays of Python are views of the values.
-
 }  // namespace
 
 Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact contact, std::optional<Fracture> fracture,

@@ -43,7 +43,7 @@ inline bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {
   return !now.failed && now.norm <= std::max(tolerance.relative * now.scale, now.round_off);
 }
 
-// In place: the forces keep the addresses that others hold.
+// In place: arrays of Python are views of the values.
 inline void put_back(const Field& force_density, Body& body) {
   std::ranges::copy(force_density, body.force_density.begin());
 }
