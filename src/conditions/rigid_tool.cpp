@@ -81,16 +81,21 @@ namespace {
 // Position of a tool, and its velocity over the steps of its points, which differ by their time-step level.
 class ToolMotion {
  public:
+  struct Step {
+    double dt;        // s
+    Vector velocity;  // m/s
+  };
+
   ToolMotion(const RigidTool& tool, double t, const PointTimeSteps& steps)
       : tool_(tool), t_(t), steps_(steps), offset_(tool.offset(t)) {}
 
   const Vector& offset() const { return offset_; }
-  const Vector& velocity(int level) {
-    while (static_cast<int>(velocities_.size()) <= level) {
-      const double dt = std::ldexp(steps_.whole, -static_cast<int>(velocities_.size()));
-      velocities_.push_back((after(dt) - offset_) / dt);
+  const Step& step(int level) {
+    while (static_cast<int>(by_level_.size()) <= level) {
+      const double dt = std::ldexp(steps_.whole, -static_cast<int>(by_level_.size()));
+      by_level_.push_back({dt, (after(dt) - offset_) / dt});
     }
-    return velocities_[level];
+    return by_level_[level];
   }
 
  private:
@@ -109,7 +114,7 @@ class ToolMotion {
   double t_;
   const PointTimeSteps& steps_;
   Vector offset_;
-  std::vector<Vector> velocities_;  // by time-step level
+  std::vector<Step> by_level_;
 };
 
 // A position on an edge of a box is on several faces, to round-off. The face that it approaches fastest stops it: a
@@ -150,11 +155,14 @@ Vector correction(const Surface& at, double friction, const Vector& velocity, do
 template <class Visit>
 void for_each_change(const RigidTool& tool, const VelocityUpdate& update, const Visit& visit) {
   ToolMotion motion(tool, update.t, update.steps);
+  const Domain& domain = update.body.domain;
+  const bool has_images = !domain.periods.empty();
   const auto keep_out = [&](const auto& shape) {
     for (const int i : tool.points) {
-      const double dt = update.steps.of(i);
-      const Vector place = tool.nearest_image(update.body.domain, update.body.current(i) - motion.offset());
-      const Vector relative = update.body.velocity[i] - motion.velocity(update.steps.level(i));
+      const auto& [dt, velocity] = motion.step(update.steps.level(i));
+      Vector place = domain.current(i) - motion.offset();
+      if (has_images) place = tool.nearest_image(domain, place);
+      const Vector relative = update.body.velocity[i] - velocity;
       Surface at = tool.met_by(i, shape, place);
       choose_face(shape, place, relative, at);
       if (at.gap + dt * at.normal.dot(relative) >= 0) continue;

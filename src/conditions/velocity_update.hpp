@@ -21,7 +21,7 @@ struct PointTimeSteps {
   bool none_follows = false;  // at the final time
 
   int level(int i) const { return !levels || levels->empty() ? 0 : (*levels)[i]; }
-  double of(int i) const { return level(i) == 0 ? whole : std::ldexp(whole, -level(i)); }
+  double of(int i) const { return whole / (1 << level(i)); }
   double of_impulse(int i) const { return impulse * of(i); }
   // The value at a time; at the final time it need not be a number later.
   double value(const Function& motion, const Vector& X, double time) const {
