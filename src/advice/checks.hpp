@@ -120,8 +120,10 @@ Check sudden_failure;
 Check cracks_of_plates;
 // A warning for each block whose spacing is too large for the Averaging Radius of its criterion.
 Check coarse_averages;
-// A warning for each block by quadratic correspondence whose bonds break.
+// A warning for each block by correspondence whose cracks by one critical stretch take another energy than is given.
 Check noisy_cracks;
+// A line for each block whose Critical Stretch, given as a Fracture Energy, has become a gradual crack.
+Check gradual_cracks;
 // A line for equilibria before other steps, if bonds that could break in them do not, with the reason.
 Check late_breaks;
 // A warning for each block whose gradual cracks have contact.

@@ -194,7 +194,7 @@ std::vector<Observable> observables_of(const deck::Deck& deck, const deck::Probl
   for (const deck::Material& material : deck.materials) {
     laws.push_back(material.law);
     for (const deck::NamedDamageModel& damage : deck.damage_models) {
-      if (damage.model.is_gradual) {
+      if (damage.model.is_gradual || damage.model.fracture_energy > 0) {  // the block's horizon decides
         if (const auto cracks = materials::cracking(material.law, 1)) laws.push_back(*cracks);
       }
       if (!damage.model.ductility) continue;

@@ -38,12 +38,13 @@ StepControl control_of(const deck::Deck& deck) {
 // Builds the scene from the partitioned cloud.
 Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weights, const Communicator& communicator) {
   Dropped dropped;
-  const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
+  std::vector<BlockMaterial> materials = block_materials(deck, cloud);
   const Mirrors found = mirrors(deck, cloud, communicator);
   const std::vector<Period> all_periods = periods(deck, cloud, found.planes, communicator);
   Domain domain =
       domain_without_degenerate_points(deck, std::move(cloud), found.planes, all_periods, communicator, dropped);
   if (dropped.points > 0) find_probes_again(deck.node_sets, domain);
+  soften_cracks(deck, domain, materials);
   Scene scene{make_body(std::move(domain), deck.discretization.influence, materials),
               {},
               {},

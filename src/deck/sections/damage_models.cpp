@@ -19,7 +19,10 @@ const OptionalKey<double> fracture_energy(
     {.name = "Fracture Energy",
      .unit = "J/m²",
      .range = positive,
-     .meaning = "G_c of a flat cut through a lattice of the block's spacing; s_c follows."});
+     .meaning =
+         "G_c of a flat cut through a lattice of the block's spacing; s_c follows. In an elastic solid by "
+         "quadratic correspondence, or in explicit steps by the mean gradient with a horizon below two spacings, "
+         "cracks open as by 'Cohesive Crack', since one s_c would not take G_c."});
 
 const OptionalKey<double> critical_bond_energy(
     {.name = "Critical Bond Energy",
