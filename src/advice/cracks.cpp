@@ -147,8 +147,7 @@ std::string noisy_cracks(const Situation& situation) {
     return "WARNING: block '" + block.name +
            "' breaks bonds at one critical stretch by correspondence with a horizon below two spacings: its cracks "
            "take "
-           "0.4 to 0.95 of the Fracture Energy. Expected a Horizon Factor of 3.015 (0.87 to 1.1 of it) or, in explicit "
-           "steps, Stabilization 'Mean Gradient' (0.89 to 1.07)\n";
+           "0.4 to 0.95 of the Fracture Energy; expected a Horizon Factor of 3.015 (0.87 to 1.1 of it)\n";
   });
 }
 
@@ -158,8 +157,8 @@ std::string gradual_cracks(const Situation& situation) {
     const DamageModel* model = section ? deck::damage_model_of(*section, situation.deck.damage_models) : nullptr;
     if (!model || model->is_gradual || !block.material.damage->is_gradual) return "";
     return "block '" + block.name +
-           "': stress falls in front of a crack until the Fracture Energy is taken, as by Damage Model 'Cohesive "
-           "Crack', for one critical stretch would take 0.2 to 1.6 of it; a Critical Stretch breaks bonds at once\n";
+           "': stress falls before bonds break, as by Damage Model 'Cohesive Crack', so that cracks take the Fracture "
+           "Energy (by one critical stretch 0.2 to 1.6 of it)\n";
   });
 }
 

@@ -29,8 +29,8 @@ bool has_initial_velocity(const deck::Deck& deck) {
       deck.conditions, [](const deck::Condition& one) { return std::holds_alternative<InitialVelocity>(one.kind); });
 }
 
-// True for data that a checkpoint may lack: a body that could not break is whole, one that was not heated has not
-// expanded, equilibria have no velocities, and new contact begins anew.
+// True for data that a checkpoint may lack: a body that could not break or soften is whole, one that was not heated has
+// not expanded, equilibria have no velocities, and new contact begins anew.
 bool may_be_missing(const std::string& name) {
   constexpr std::array of_points = {
       "thermal_strain",  "expansion_pull", "expansion_work",  "reference_temperature", "damage",
@@ -38,6 +38,9 @@ bool may_be_missing(const std::string& name) {
       "scalar_state",    "gradient_state", "quadratic_state", "velocity_now"};
   if (name.starts_with("contact_") || name == "penetration" || name == "searches") return true;
   if (name.ends_with("_reach")) return true;  // a tool that was not there
+  for (const std::string_view state : materials::Brittle::state_names) {
+    if (name.ends_with(" > " + std::string(state))) return true;
+  }
   return std::ranges::any_of(of_points, [&](const char* one) { return name == std::string("all points > ") + one; });
 }
 

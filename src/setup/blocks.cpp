@@ -112,12 +112,11 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
 
 namespace {
 
-// True if the points of a block can soften in front of a crack. By the mean gradient a crack opens between two layers,
-// and not in equilibria.
-bool can_soften(const BlockMaterial& material, const BlockHorizons& block, bool has_equilibria) {
+// True if the points of a block can soften in front of a crack: by the mean gradient it opens between two layers.
+bool can_soften(const BlockMaterial& material, const BlockHorizons& block) {
   if (material.formulation == Formulation::quadratic) return true;
   const double reach = block.largest / block.spacing;
-  return material.formulation == Formulation::correspondence && reach > 1.05 && reach < 1.95 && !has_equilibria &&
+  return material.formulation == Formulation::correspondence && reach > 1.05 && reach < 1.95 &&
          residual_of(material.stabilization) == ResidualKind::both_gradients;
 }
 
@@ -126,14 +125,13 @@ bool can_soften(const BlockMaterial& material, const BlockHorizons& block, bool 
 // One critical stretch takes 0.2 to 1.6 times the fracture energy by correspondence (docs/decisions.md, Cracks whose
 // stress falls before bonds break).
 void soften_cracks(const deck::Deck& deck, const Domain& domain, std::vector<BlockMaterial>& materials) {
+  if (deck.solver.quasi_static) return;  // equilibria break bonds by their stretch
   for (std::size_t b = 0; b < materials.size(); ++b) {
     BlockMaterial& material = materials[b];
     std::optional<DamageModel>& damage = material.damage;
     if (!damage || damage->ductility || damage->critical_bond_energy || damage->is_gradual) continue;
-    if (!(damage->fracture_energy > 0)) continue;
     const auto softening = materials::cracking(material.law, damage->fracture_energy);
-    const bool has_equilibria = deck.solver.quasi_static.has_value();
-    if (!softening || !can_soften(material, domain.blocks[b], has_equilibria)) continue;
+    if (!(damage->fracture_energy > 0) || !softening || !can_soften(material, domain.blocks[b])) continue;
     damage->is_gradual = true;
     material.law = *softening;
   }

@@ -35,7 +35,8 @@ double usual_coefficient(const materials::AnyLaw& law, const Stabilization& stab
 
 // One entry for each block of the mesh.
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud);
-// Where a Critical Stretch is given as a fracture energy: makes cracks gradual (DamageModel) in blocks that can soften.
+// In explicit steps, where a Critical Stretch is given as a fracture energy: makes cracks gradual (DamageModel) in
+// blocks that can soften.
 void soften_cracks(const deck::Deck& deck, const Domain& domain, std::vector<BlockMaterial>& materials);
 std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud);
 

@@ -20,9 +20,9 @@ const OptionalKey<double> fracture_energy(
      .unit = "J/m²",
      .range = positive,
      .meaning =
-         "G_c of a flat cut through a lattice of the block's spacing; s_c follows. In an elastic solid by "
-         "quadratic correspondence, or in explicit steps by the mean gradient with a horizon below two spacings, "
-         "cracks open as by 'Cohesive Crack', since one s_c would not take G_c."});
+         "G_c of a flat cut through a lattice of the block's spacing; s_c follows. Without QuasiStatic, "
+         "elastic solids by quadratic correspondence, or by the mean gradient with a horizon below two spacings, crack "
+         "as by 'Cohesive Crack', since one s_c would not take G_c."});
 
 const OptionalKey<double> critical_bond_energy(
     {.name = "Critical Bond Energy",
