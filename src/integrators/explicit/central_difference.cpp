@@ -288,7 +288,7 @@ void CentralDifference::reassign_levels(StepReport& report, const std::vector<st
     report.frequency_bound =
         multi_stepping_.drop(body_, present);  // the run before had substeps, this deck allows none
   } else {
-    const std::vector<std::uint8_t> damped = damped_points(body_, conditions_);
+    const std::vector<std::uint8_t> damped = damped_points(body_, conditions_, body_.velocity, time_, dt());
     report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor, present, {pushed, damped});
   }
   restrict_conditions();

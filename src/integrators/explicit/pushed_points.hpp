@@ -15,8 +15,9 @@ namespace strut {
 std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& conditions, const contact::Contact& contact,
                                         std::span<const Vector> velocities, double t, double dt);
 
-// Marks points whose motion a condition damps. Empty if none does.
-std::vector<std::uint8_t> damped_points(const Body& body, const Conditions& conditions);
+// Marks points whose motion a condition damps, or the friction of a tool. Empty if none does.
+std::vector<std::uint8_t> damped_points(const Body& body, const Conditions& conditions,
+                                        std::span<const Vector> velocities, double t, double dt);
 
 bool any_in_both(const std::vector<std::uint8_t>& some, const std::vector<std::uint8_t>& others);  // empty: no marks
 
