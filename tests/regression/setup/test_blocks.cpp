@@ -119,6 +119,10 @@ TEST(Blocks, WhoseOuterCellsDoNotStrainAreToldOf) {
   EXPECT_EQ(told(held + tool, "Nodes").find("too much stiffness"), std::string::npos);
   EXPECT_NE(told(held + tool, "Nodes").find("expect about 11 % too little stiffness along z"), std::string::npos);
   EXPECT_NE(told(held + tool, "Nodes", key("Horizon", "2.6e-3")).find("about 49 % too little"), std::string::npos);
+  const std::string load = along("load", "Body Force", "foot", "z", "1e9"),
+                    weight = along("load", "Body Force", "all", "z", "1e9");
+  EXPECT_NE(told(load, "Nodes").find("held or pressed at one end: the outer nodes have half cells"), std::string::npos);
+  EXPECT_EQ(told(weight, "Nodes").find("outer nodes"), std::string::npos);
   EXPECT_EQ(told(held + tool, "Nodes", "", key("Formulation", "Quadratic Correspondence")).find("too little"),
             std::string::npos);
   const std::string turned = changed(changed(tool, "0 0 -1", "0 0 1"), "4e-3", "-4e-3");  // below the held cells
