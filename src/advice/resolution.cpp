@@ -186,10 +186,6 @@ std::vector<double> free_points(const Domain& domain, const std::vector<double>&
   return all;
 }
 
-}  // namespace
-
-namespace {
-
 // Spacings that each held end of a body gives way more than it should with points at nodes by the mean gradient: the
 // outer layers have half cells and families on one side, and a uniform stress is no equilibrium there. 0 for others.
 // Measured of elastic cubes between planes, 4 and 8 cells an edge, ν 0 and 0.3, in (1/stiffness − 1) of the layers:
