@@ -243,8 +243,8 @@ std::string unstrained_ends(const Situation& situation) {
       if (at_nodes)
         text += text_of(std::setprecision(2), "the outer nodes have half cells and families on one side: expect about ",
                         100 * error, " % too little stiffness along ", along,
-                        ", in foams also force until all layers flow (1 % by Formulation 'Quadratic "
-                        "Correspondence'; more with a longer horizon)\n");
+                        ", of foams also too little force until all layers flow; a longer horizon is worse, "
+                        "Formulation 'Quadratic Correspondence' has 1 %, of foams 3 %\n");
       else
         text += text_of(std::setprecision(2), "points are in the middles of cells, and half a spacing at ",
                         ends == 1 ? "this" : "each", " end does not strain: expect ", 100 * error,
