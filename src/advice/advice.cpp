@@ -11,7 +11,7 @@ namespace strut {
 namespace {
 
 constexpr Check* checks[] = {  // in the order of their warnings
-    without_effect, doubled_numbers, volumes_off_lattices, improbable_materials, springs_of_elastomers,
+    without_effect, doubled_numbers, volumes_off_lattices, improbable_materials, unusual_springs,
     improbable_temperatures, improbable_scales, large_elastic_strains, sudden_stretches, overlaps, flat_families,
     unknown_gradients, unequal_horizons, points_off_lattices, contact_at_mirrors, filled_tools, thin_tools, apart_tools,
     meeting_tools, overruled_motions, held_stretches, held_ends, thin_members, unstrained_ends, cracks_of_plates,

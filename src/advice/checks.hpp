@@ -90,9 +90,9 @@ Check outline;
 // A warning for each block with a density, a wave speed, or a ratio of yield stress to Young's modulus that no solid
 // has; it names the units.
 Check improbable_materials;
-// A warning for each block of an elastomer whose springs have less than half the default stiffness, or which relaxes
-// while they do not.
-Check springs_of_elastomers;
+// A warning for each block of an elastomer or a foam whose springs have less than half the default stiffness, and of an
+// elastomer that relaxes while they do not.
+Check unusual_springs;
 // A warning for each block of a metal that is initially molten, or so cold that its temperature may be in °C, and for
 // each prescribed temperature below 0 K.
 Check improbable_temperatures;
@@ -138,8 +138,8 @@ Check improbable_stretches;
 // A line for each block whose members are so thin that correspondence loses a tenth of their bending stiffness,
 // ordinary points have an error of a tenth in tension, or quadratic correspondence may have one of a twentieth.
 Check thin_members;
-// A line for each body and axis along which outer layers of cells are held or pressed by a plane, if what does not
-// strain there adds a twentieth to the stiffness.
+// A line for each body and axis along which outer layers are held or pressed by a plane, if cells that do not strain
+// there add a twentieth to the stiffness, or nodes that give way take a twentieth.
 Check unstrained_ends;
 // The warnings of blocks with points whose families nearly lie in a plane.
 Check flat_families;

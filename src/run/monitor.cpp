@@ -92,8 +92,8 @@ double largest_volume_change(const Body& body) {
   return body.domain.communicator.max(largest);
 }
 
-// Collective.
-std::string balance_of(const Ledger& ledger, const Body& body) {
+// Collective. `steps`: of time, not of load.
+std::string balance_of(const Ledger& ledger, const Body& body, bool steps) {
   if (!std::isfinite(ledger.balance_error)) {
     return "energies are too large for a number. Likely causes: a load, a speed or a density far too large";
   }
@@ -102,10 +102,13 @@ std::string balance_of(const Ledger& ledger, const Body& body) {
   std::ostringstream text;
   text << "the balance of energy has an error of " << 100 * ledger.balance_error << " % of the largest energy, "
        << std::abs(ledger.gained) << " J "
-       << (ledger.gained > 0 ? "out of nothing: the run is unstable, or" : "that nothing accounts for: the run")
-       << " is too coarse in time (Watch > Balance Error). Likely causes: a Fixed dt above the critical time step, a "
-          "load too sudden, too few load steps, contact or a tool with a Mass that meets points with substeps "
-          "(Subcycling)"
+       << (ledger.gained > 0 ? "out of nothing: the run is " : "that nothing accounts for: the run is ")
+       << (ledger.gained > 0 && steps ? "unstable, or too" : "too")
+       << " coarse in time (Watch > Balance Error). Likely causes: "
+       << (steps ? "a Fixed dt above the critical time step, a load too sudden, contact or a tool with a Mass that "
+                   "meets points with substeps (Subcycling)"
+                 : "too few load steps (the work of each is that of the mean of the forces at its ends: one that jumps "
+                   "from nothing errs most), a Tolerance too large")
        << (expands
                ? ", thermal expansion of a law without an energy of its own, whose balance errs by some part of the "
                  "thermal strain"
@@ -114,7 +117,7 @@ std::string balance_of(const Ledger& ledger, const Body& body) {
     text << ", the law of points whose volume has changed by a factor of up to " << std::exp(change)
          << ": it follows from rates alone, and what it stores errs by up to " << 100 * change / 3 << " %";
   }
-  text << "; the last frame shows where points fly off";
+  if (steps) text << "; the last frame shows where points fly off";
   return text.str();
 }
 
@@ -307,7 +310,7 @@ void Monitor::check_energy(const Ledger& ledger, bool last) {
     raise_together(body_.domain.communicator, point.empty() ? "" : at(ledger.time) + point);
   }
   const bool exceeds = !(error <= std::min(limit, worth_a_warning));
-  const std::string text = exceeds ? at(ledger.time) + balance_of(ledger, body_) : "";
+  const std::string text = exceeds ? at(ledger.time) + balance_of(ledger, body_, dt_ > 0) : "";
   if (!(error <= limit)) {
     const std::string once = body_.domain.communicator.rank() == 0 ? text : "";
     passed(energy, once);

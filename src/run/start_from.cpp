@@ -215,8 +215,12 @@ std::string StartState::story(const deck::Deck& deck, const Scene& scene) const 
        << (replaced ? ", but for the points of an Initial Velocity" : "") << "; " << stored.elastic << " J stored and "
        << stored.dissipated + stored.fracture << " J dissipated before are given, work counts from here";
   if (other_sets_) text << "; node sets hold other points than there";
-  if (!goes_on_ || !changes_.same_conditions)
+  if (!goes_on_ || !changes_.same_conditions) {
     text << "; loads" << (scene.tools.empty() ? "" : ", rigid tools") << " begin anew";
+    if (deck.solver.quasi_static)
+      text << "; forces of former loads and tools fade in the first load step, and their work counts as that of "
+              "conditions (External_Work)";
+  }
   if (scene.contact.any() && !changes_.same_contact) text << "; contact begins anew, without friction";
   return text.str() + "\n";
 }

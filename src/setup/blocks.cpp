@@ -82,15 +82,19 @@ materials::AnyLaw law_of(const deck::Material& material, const deck::Block& sect
 // If bonds break by their stretch, springs of the usual stiffness would let the tip of a crack open by motions that no
 // point's deformation gradient sees, and it would grow at half the fracture energy (inputs/fracture). An elastomer
 // would give way by such motions under pressure: its stress becomes as large as its shear modulus, beside which the
-// usual springs are soft. Silling's resist bending, too, and are less stiff.
+// usual springs are soft. Foams that compact would be crushed layer by layer at nodes: the outer ones, half as thick,
+// take 5/6 of the stress, and springs must bear the rest of the plateau. Silling's resist bending, too, and are less
+// stiff.
 double usual_coefficient(const materials::AnyLaw& law, const Stabilization& stabilization, bool breaks_by_stretch) {
-  constexpr double usual = 0.01, stiff = 0.3;
+  constexpr double usual = 0.01, stiff = 0.3, stiffest_of_foam = 1;
   if (breaks_by_stretch) return stiff;
+  const double modulus =
+      materials::moduli_of(law).longitudinal() * (std::holds_alternative<SillingStabilization>(stabilization) ? 4 : 1);
+  const auto of_foam = [&](double plateau) { return std::clamp(20 * plateau / modulus, usual, stiffest_of_foam); };
+  if (const auto* foam = std::get_if<materials::DeshpandeFleck>(&law)) return of_foam(foam->plateau);
+  if (const auto* foam = std::get_if<materials::PolymerFoam>(&law)) return of_foam(foam->uniaxial_yield);
   const auto* elastomer = std::get_if<materials::Hyperelastic>(&law);
-  if (!elastomer) return usual;
-  const materials::Moduli moduli = elastomer->moduli();
-  const double shear_moduli = std::holds_alternative<SillingStabilization>(stabilization) ? 1 : 4;
-  return std::clamp(shear_moduli * moduli.shear / moduli.longitudinal(), usual, stiff);
+  return elastomer ? std::clamp(4 * elastomer->moduli().shear / modulus, usual, stiff) : usual;
 }
 
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud) {

@@ -95,11 +95,13 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
     const Material& material = materials[block.material];
     if (material.name.empty() || breaks_at_rest(material.formulation, material.law, *model)) continue;
     if (steps_follow) continue;
-    problems.add(
-        "Blocks > " + block.name + " > Damage Model",
-        "bonds cannot break with Solver > QuasiStatic in this way; expected explicit steps (Verlet), or Damage "
-        "Model 'Critical Stretch' in a material 'Elastic', or 'Elastic Correspondence' without Formulation "
-        "'Quadratic Correspondence', or 'Cohesive Crack' with it");
+    constexpr const char* others =
+        ", or Damage Model 'Critical Stretch' in a material 'Elastic', or 'Elastic Correspondence' without Formulation "
+        "'Quadratic Correspondence', or 'Cohesive Crack' with it";
+    problems.add("Blocks > " + block.name + " > Damage Model",
+                 std::string("bonds ") + (model->ductility ? "of metal that fails " : "") +
+                     "cannot break with Solver > QuasiStatic" + (model->ductility ? "" : " in this way") +
+                     "; expected explicit steps (Verlet)" + (model->ductility ? "" : others));
   }
   const bool breaks = std::ranges::any_of(blocks, [](const Block& block) { return block.damage_model.has_value(); });
   if (!breaks || steps_follow) return;

@@ -38,8 +38,8 @@ const OptionalKey<double> stabilization_coefficient(
     {.name = "Stabilization Coefficient",
      .range = not_negative,
      .meaning = "Stiffness of the springs in units of (λ + 2μ)/(tr K/3), K the shape tensor. Default 0.01; 0.3 in "
-                "blocks whose bonds break by stretch; in elastomers 4 μ/(λ + 2μ), Silling a quarter of it, between "
-                "these two."});
+                "blocks whose bonds break by stretch; in foams that compact 20 plateaus/(λ + 2μ), 0.01 to 1, in "
+                "elastomers 4 μ/(λ + 2μ), 0.01 to 0.3, Silling a quarter."});
 
 const RealKey linear_viscosity(
     {.name = "Linear Viscosity",

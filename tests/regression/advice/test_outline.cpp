@@ -79,6 +79,22 @@ TEST(Improbable, SoftSpringsOfElastomersAreWarnedOf) {
   }
 }
 
+// 20 plateaus over E, for a plateau of E/300.
+TEST(Improbable, SoftSpringsOfFoamsAreWarnedOf) {
+  for (const std::string coefficient : {"0.01", "0.05", ""}) {
+    Parts parts = flying();
+    parts.materials = section("copper", key("Material Model", "Metal Foam Correspondence") + key("Density", "150") +
+                                            key("Young's Modulus", "300e6") + key("Poisson's Ratio", "0") +
+                                            key("Alpha", "2") + key("Plateau Stress", "1e6") +
+                                            key("Linear Hardening", "0") + key("Locking Stress", "2e6") +
+                                            key("Locking Exponent", "8") + key("Densification Strain", "1") +
+                                            (coefficient.empty() ? "" : key("Stabilization Coefficient", coefficient)));
+    const bool warned =
+        told_of(parts).find("Stabilization Coefficient of 0.01; the default is 0.067") != std::string::npos;
+    EXPECT_EQ(warned, coefficient == "0.01");
+  }
+}
+
 // In 10 ms the elastomer keeps 0.05 of its shear modulus, in 1 µs nearly all of it. The coefficient that fits is the
 // default of neo-Hooke with what is left, 4·0.05 MPa, in units of the fast moduli, 20 MPa + 4/3 MPa, within the limits.
 TEST(Improbable, SpringsThatDoNotRelaxWithTheirElastomerAreWarnedOf) {

@@ -216,6 +216,8 @@ TEST(SlowLoading, FromAStrainedBodyHasItsToleranceAndGoesOnToTheLastBit) {
     EXPECT_LT(std::stod(line.substr(at + 14)), 1.01e-12) << line;
   }
   EXPECT_EQ(steps, folder.world.rank() == 0 ? 9 : 0);
+  EXPECT_EQ(said.str().find("; forces of former loads and tools fade in the first load step") != std::string::npos,
+            folder.world.rank() == 0);
   EXPECT_EQ(read_history(folder / "divided.csv"), read_history(folder / "whole.csv"));
 }
 

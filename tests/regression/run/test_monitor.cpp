@@ -170,6 +170,16 @@ TEST(Monitor, ToldIsAnErrorOfTheBalanceFromOnePercentOn) {
   EXPECT_EQ(told_of({-0.011, -0.02, -0.3}).lines.size(), 2u) << "and at the end, if it has grown since";
 }
 
+// This one has seen no step in time, as in equilibria; EnergyFromNowhereEndsTheRunWithAFrame is explicit.
+TEST(Monitor, CausesOfAnErrorOfTheBalanceAreThoseOfTheSolver) {
+  const std::vector<std::string> lines = told_of({0.011}).lines;
+  ASSERT_EQ(lines.size(), 1u);
+  if (lines[0].empty()) return;  // another rank
+  expect_words(lines[0], {"out of nothing: the run is too coarse in time", "Likely causes: too few load steps"});
+  for (const char* const word : {"unstable", "Fixed dt", "Subcycling", "fly off"})
+    EXPECT_EQ(lines[0].find(word), std::string::npos) << lines[0];
+}
+
 TEST(Monitor, EnergyOutOfNothingEndsTheRunEarlierThanLostEnergy) {
   EXPECT_TRUE(told_of({0.11, 0}).ended);
   EXPECT_FALSE(told_of({-0.49, 0}).ended);

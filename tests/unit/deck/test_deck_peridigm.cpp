@@ -837,6 +837,11 @@ TEST(DeckOfPeridigm, PointsThatFailAreThoseOfMetals) {
   refused(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 4.9, D3: -3.0, D5: 1.1, Melting Temperature: 1356"),
           "Blocks > all of it > Damage Model: 'growing' has D5, but material 'glass' does not know its temperature");
   refused(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 0.4, D3: 3.0"), "Damage Models > growing > D3: ");
+  const std::string slow = changed(with(metal, "\"Plastic Strain\", Failure Strain: 0.2"),
+                                   "Verlet: {Safety Factor: 0.7}", "QuasiStatic: {Number of Load Steps: 1}");
+  refused(slow,
+          "Blocks > all of it > Damage Model: bonds of metal that fails cannot break with Solver > QuasiStatic; ");
+  EXPECT_EQ(folder.error(slow).find("Critical Stretch"), std::string::npos) << folder.error(slow);
 }
 
 // Solids whose stress falls before bonds break: ours, in the same deck.
