@@ -105,7 +105,8 @@ std::string balance_of(const Ledger& ledger, const Body& body, bool steps) {
        << (ledger.gained > 0 ? "out of nothing: the run is " : "that nothing accounts for: the run is ")
        << (ledger.gained > 0 && steps ? "unstable, or too" : "too")
        << " coarse in time (Watch > Balance Error). Likely causes: "
-       << (steps ? "a Fixed dt above the critical time step, a load too sudden, contact, a tool with a Mass or one with friction that "
+       << (steps ? "a Fixed dt above the critical time step, a load too sudden, contact, a tool with a Mass or one "
+                   "with friction that "
                    "meets points with substeps (Subcycling)"
                  : "too few load steps (the work of each is that of the mean of the forces at its ends: one that jumps "
                    "from nothing errs most), a Tolerance too large")
