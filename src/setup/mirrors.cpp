@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "conditions/symmetry_plane.hpp"
 #include "setup/blocks.hpp"
+#include "setup/periods.hpp"
 #include "topology/cloud.hpp"
 
 namespace strut {
@@ -26,7 +27,6 @@ struct Place {
   double distances = 0;                           // sum for those in the set, in units of the extent of their cells
   double least = HUGE_VAL, most = 0, most_m = 0;  // for those in the set; most_m in m
   double off = 0;                                 // number of those in the set that are off the plane
-  double cut = 0;                                 // number of partial cells that count the plane as surface
   double apart = 0;  // number of those in the set whose bonds need a node on the plane, but that have none
   double gap = 0;    // m, the largest between the plane and such a whole element
   double free = 0;   // number at the plane, but not in the set
@@ -47,12 +47,10 @@ class PlaneSearch {
   Place place() const {
     Place found;
     over_body([&](std::size_t i) { classify(i, found); });
-    double sums[] = {found.points,    found.in_set, found.before, found.behind,
-                     found.distances, found.off,    found.cut,    found.apart};
+    double sums[] = {found.points, found.in_set, found.before, found.behind, found.distances, found.off, found.apart};
     double most[] = {-found.least, found.most, found.most_m, found.gap};
     communicator_.sum(sums), communicator_.max(most);
-    found = {sums[0], sums[1], sums[2], sums[3], sums[4], -most[0],
-             most[1], most[2], sums[5], sums[6], sums[7], most[3]};
+    found = {sums[0], sums[1], sums[2], sums[3], sums[4], -most[0], most[1], most[2], sums[5], sums[6], most[3]};
     const double mean = found.in_set > 0 ? found.distances / found.in_set : 0;
     double free = 0;
     over_body([&](std::size_t i) { free += !is_in(cloud_, set_, i) && distance(i) <= mean + on_plane ? 1 : 0; });
@@ -87,8 +85,6 @@ class PlaneSearch {
     found.most_m = std::max(found.most_m, std::abs(signed_distance));
     if (cloud_.shapes.empty() || cloud_.at == PointsAt::nodes) return;
     if (here < farthest_of_nearest) look_for_nodes(i, found);
-    const Vector outward = signed_distance > 0 ? Vector(-plane_.normal) : plane_.normal;
-    found.cut += outward.dot(cloud_.shapes[i].surface) > 0.1 * std::pow(cloud_.spacings[i], 2) ? 1 : 0;
   }
   // Partly filled elements may be cut by the plane, if their bonds need no common nodes.
   void look_for_nodes(std::size_t i, Place& found) const {
@@ -147,13 +143,6 @@ std::string objection(const Place& place, PointsAt at, bool whole_cells) {
 
 std::string path_of(const deck::Deck& deck, const Mirror& plane) {
   return "Boundary Conditions > " + deck.conditions[plane.number].name;
-}
-
-std::string warning_of_cells(const deck::Deck& deck, const Mirror& plane, double cells) {
-  return text_of(
-      "WARNING: ", path_of(deck, plane), ": ", cells,
-      " partly filled elements at the plane bring surfaces that face it; if these are its cut, and not the body's "
-      "surface before it, quadratic correspondence is less accurate in them\n");
 }
 
 // Planes of one body that are not parallel must meet at 180°/n, or the images of the body would overlap.
@@ -219,7 +208,6 @@ Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communica
         Mirror inward = plane;
         if (place.behind > 0) inward.normal *= -1;
         found.planes.push_back(inward);
-        if (is_quadratic && place.cut > 0) found.warnings += warning_of_cells(deck, plane, place.cut);
       } else {
         found.warnings += "WARNING: " + path_of(deck, plane) + ": " + text +
                           "; so these points only keep their distance to it, with an error of the first order in the "
@@ -248,6 +236,56 @@ void add_faces_without_images(const deck::Deck& deck, const FacesOnPlanes& faces
     if (std::ranges::any_of(planes, has_image)) continue;
     face.planes = 0;
     add_face(face, cloud);
+  }
+}
+
+namespace {
+
+// The area of a cell's cut by a plane or side, which is counted as surface of the body though it goes on behind it: the
+// filled fraction of the face. 0 if the cell has no such surface, m². The moment of the cut tells it from surfaces of
+// the body, which are nearer to the middle of the cell.
+double area_of_cut(const PointCloud& cloud, const Mirror& plane, int i) {
+  constexpr double part_of_moment = 0.7;
+  const double spacing = cloud.spacings[i];
+  if (std::abs(plane.distance(cloud.positions[i]) - 0.5 * spacing) > 0.1 * spacing) return 0;
+  const double area = cloud.volumes[i] / spacing;
+  const double moment = plane.normal.dot(cloud.shapes[i].surface_moments * plane.normal);
+  return moment > part_of_moment * 0.5 * area * spacing ? area : 0;
+}
+
+// Collective. A mesh that was made to repeat has no cuts at the sides, though some of the body's surface may lie there.
+bool was_made_to_repeat(const PointCloud& cloud, const Mirror& side, const Communicator& communicator) {
+  double counts[] = {0, 0};  // elements at the side; with surface on it
+  for (int i = 0; i < std::ssize(cloud.shapes); ++i) {
+    if (std::abs(side.distance(cloud.positions[i]) - 0.5 * cloud.spacings[i]) > 0.1 * cloud.spacings[i]) continue;
+    ++counts[0], counts[1] += area_of_cut(cloud, side, i) > 0 ? 1 : 0;
+  }
+  communicator.sum(counts);
+  return counts[1] <= 0.4 * counts[0];
+}
+
+void take_off_cut(const Mirror& plane, double area, double spacing, CellShape& shape) {
+  const Vector outward = -plane.normal;
+  const Vector along = shape.offset - outward.dot(shape.offset) * outward;
+  shape.surface -= area * outward;
+  shape.surface_moments -= area * outward * (along + 0.5 * spacing * outward).transpose();
+}
+
+}  // namespace
+
+void take_off_cuts(const deck::Deck& deck, const Communicator& communicator, PointCloud& cloud) {
+  if (!communicator.any(!cloud.shapes.empty())) return;
+  const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
+  const auto take_off = [&](const Mirror& plane) {
+    for (int i = 0; i < std::ssize(cloud.shapes); ++i) {
+      if (plane.period == 0 && bonds[cloud.blocks[i]].body != plane.body) continue;
+      const double area = area_of_cut(cloud, plane, i);
+      if (area > 0) take_off_cut(plane, area, cloud.spacings[i], cloud.shapes[i]);
+    }
+  };
+  for (const Mirror& plane : mirrors(deck, cloud, communicator).planes) take_off(plane);
+  for (const Mirror& side : sides_of_periods(deck)) {
+    if (!was_made_to_repeat(cloud, side, communicator)) take_off(side);
   }
 }
 

@@ -28,4 +28,8 @@ Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communica
 void add_faces_without_images(const deck::Deck& deck, const FacesOnPlanes& faces, const Communicator& communicator,
                               PointCloud& cloud);
 
+// Collective. Takes off the surface of partly filled cells what is only their cut by a plane or side behind which the
+// body continues.
+void take_off_cuts(const deck::Deck& deck, const Communicator& communicator, PointCloud& cloud);
+
 }  // namespace strut

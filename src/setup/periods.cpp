@@ -59,15 +59,6 @@ std::string objection(const PeriodicSides& sides, const Eigen::AlignedBox3d& box
   return text.str();
 }
 
-// True if the body ends at the upper (direction 1) or lower (-1) face of a point's cell along the axis: the cell has a
-// surface that faces this way, a tenth of a spacing or more from its middle on average. The surface of an inclined
-// strut that goes on behind the face is nearer to the middle.
-bool ends_there(const PointCloud& cloud, int axis, double direction, int i) {
-  if (cloud.shapes.empty()) return false;
-  const double spacing = cloud.spacings[i], facing = direction * cloud.shapes[i].surface[axis];
-  return facing > 0.1 * spacing * spacing && cloud.shapes[i].surface_moments(axis, axis) > 0.1 * spacing * facing;
-}
-
 }  // namespace
 
 std::vector<Mirror> sides_of_periods(const deck::Deck& deck) {
@@ -137,10 +128,9 @@ std::vector<Period> periods(const deck::Deck& deck, const PointCloud& cloud, con
 
 namespace {
 
-// Elements at sides of a period: their number, how many have no neighbor behind the side, and how many have one, but a
-// surface that faces it.
+// Elements at sides of a period: their number, and how many have no neighbor behind the side.
 struct AtSides {
-  double count = 0, alone = 0, facing = 0;
+  double count = 0, alone = 0;
 };
 
 // Points without nodes: how many bonds cross the sides; how many points have one neighbor straight behind the upper
@@ -192,20 +182,19 @@ AtSides at_side(const deck::Deck& deck, const Domain& domain, const Period& peri
   const int bit = first_plane_bit + period.axis + (is_upper ? 0 : lower_side);
   const double outward = is_upper ? 1 : -1;
   const auto is_on_side = [bit](std::int64_t node) { return (node >> bit & 1) != 0; };
-  double counts[] = {0, 0, 0};
+  double counts[] = {0, 0};
   for (int i = 0; i < domain.owned && !domain.cloud.shared_nodes.empty(); ++i) {
     if (std::ranges::none_of(domain.cloud.shared_nodes[i], is_on_side)) continue;
     bool meets = false;
     domain.families.for_each(i, [&](int j) { meets = meets || outward * shifts[j][period.axis] > 0; });
     ++counts[0], counts[1] += meets || is_cut[i] ? 0 : 1;
-    counts[2] += meets && ends_there(domain.cloud, period.axis, outward, i) ? 1 : 0;
   }
   domain.communicator.sum(counts);
   if (counts[0] == 0) {
     throw Error(path_of(deck, period.number) + ": no element has a node on the " + (is_upper ? "upper" : "lower") +
                 " side, which cuts elements or lies beyond the mesh; expected sides at the faces of the mesh");
   }
-  return {counts[0], counts[1], counts[2]};
+  return {counts[0], counts[1]};
 }
 
 // Collective. Sides that do not continue a mesh with nodes.
@@ -214,20 +203,10 @@ std::string ends_at_sides(const deck::Deck& deck, const Domain& domain, const Pe
   const AtSides upper = at_side(deck, domain, period, true, shifts, is_cut);
   const AtSides lower = at_side(deck, domain, period, false, shifts, is_cut);
   const double count = upper.count + lower.count, alone = upper.alone + lower.alone;
-  const double facing = upper.facing + lower.facing;
-  const std::string begin = "WARNING: " + path_of(deck, period.number) + ": ";
-  std::string warnings;
-  if (std::ranges::any_of(deck.materials, is_quadratic) && facing > 0.4 * (count - alone)) {  // a staircase has fewer
-    warnings += text_of(begin, facing, " of ", count,
-                        " partly filled elements at a side have surfaces that face it, though the body goes on behind "
-                        "it: their mesh was not made to repeat; quadratic correspondence is less accurate in them\n");
-  }
-  if (alone > 0) {
-    warnings += text_of(begin, alone, " of ", count,
-                        " elements at a side have no neighbor behind it, and end there; expected a mesh whose faces at "
-                        "both sides are alike\n");
-  }
-  return warnings;
+  if (alone == 0) return "";
+  return text_of("WARNING: ", path_of(deck, period.number), ": ", alone, " of ", count,
+                 " elements at a side have no neighbor behind it, and end there; expected a mesh whose faces at both "
+                 "sides are alike\n");
 }
 
 }  // namespace

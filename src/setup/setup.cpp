@@ -148,7 +148,9 @@ PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, dec
   add_node_sets(deck.node_sets, cloud, communicator, problems);
   check_conditions(deck, cloud, communicator, problems);
   check_interactions(deck, cloud, problems);
-  if (!communicator.any(!problems.empty())) add_faces_without_images(deck, apart, communicator, cloud);
+  if (communicator.any(!problems.empty())) return cloud;
+  add_faces_without_images(deck, apart, communicator, cloud);
+  take_off_cuts(deck, communicator, cloud);
   return cloud;
 }
 
