@@ -659,6 +659,40 @@ TEST(Monitor, ABodyThatHasJustBeenStruckIsInBalance) {
   }
 }
 
+// Halves of two layers, one thrown from the other: at 20 m/s the first step leads beyond the opening at which the crack
+// has taken its energy, at 1 m/s some twenty do. Bonds by their energy break in the step after it, with more than
+// theirs.
+TEST(Monitor, CracksThatStepsLeapOverAreToldOf) {
+  const auto said_at = [](const std::string& model, const std::string& speed, const std::string& step) {
+    const RunFolder folder;
+    folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 4, 1e-3));
+    Parts parts;
+    parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+    parts.materials =
+        section("brittle", key("Material Model", model == "Bond Energy" ? "Elastic" : "Elastic Correspondence") +
+                               key("Density", "1000") + key("Young's Modulus", "1e9") + key("Poisson's Ratio", "0.25"));
+    parts.blocks = section("body", key("Block Names", "all") + key("Material", "brittle") +
+                                       key("Horizon Factor", "1.75") + key("Damage Model", "crack"));
+    parts.damage = section("crack", key("Damage Model", model) + key("Fracture Energy", "5"));
+    parts.node_sets = key("foot", "z &lt; 2e-3") + key("head", "z &gt; 2e-3");
+    parts.conditions = along("hold", "Prescribed Displacement", "foot", "xyz", "0") +
+                       along("throw", "Prescribed Velocity", "head", "z", speed);
+    parts.times = key("Final Time", "1.5e-5");
+    parts.verlet = step;
+    return outcome(folder, parts).said;
+  };
+  const std::string told = "steps were too long for the cracks";
+  for (const std::string model : {"Cohesive Crack", "Critical Stretch", "Bond Energy"}) {
+    const std::string fast = said_at(model, "20", ""), finer = said_at(model, "20", key("Fixed dt", "3e-8")),
+                      slow = said_at(model, "1", "");
+    EXPECT_EQ(finer.find(told), std::string::npos) << finer;
+    EXPECT_EQ(slow.find(told), std::string::npos) << slow;
+    if (fast.empty()) continue;  // another rank than the first
+    expect_words(fast,
+                 {told, model == "Bond Energy" ? "an estimated 2" : "an estimated 0 of the energy", "expected a Fixed dt of "});
+  }
+}
+
 // A soft body whose points move against their neighbors, beside one that stores much more.
 TEST(Monitor, TellsOfSpringsThatHoldMuchOfOneBody) {
   const RunFolder folder;
