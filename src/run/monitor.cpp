@@ -40,8 +40,8 @@ constexpr double much_missed = 0.1;
 
 // Energy that cracks take over that which they take in short steps, estimated (BreaksInSteps): below the least, or
 // above the most, steps are too long. It is 0.95 to 1 in impacts and fast cracks of glass, concrete and steel, 1.2 by
-// the energy of bonds. Halves thrown apart take 0.25 to 0.8 of their energy at an estimate of 0.4 to 0.5, 1.55 at 1.5.
-constexpr double least_taken = 0.7, most_taken = 1.4;
+// the energy of bonds. Halves thrown apart take 0.25 to 0.8 of their energy at an estimate of 0.4 to 0.5, 2.1 at 2.
+constexpr double least_taken = 0.7, most_taken = 1.6;
 // Part of the critical stretch that steps may take a bond that breaks: then cracks take 0.95 to 1.1 of their energy.
 constexpr double resolved = 0.2;
 
