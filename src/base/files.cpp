@@ -151,7 +151,10 @@ std::string unreadable(const fs::path& file) {
   if (!fs::exists(status)) return name + ": no such file, or it may not be read";
   if (fs::is_directory(status)) return name + ": it is a directory";
   if (!fs::is_regular_file(status)) return name + ": it is a pipe or a device; expected a file";
-  return std::ifstream(file) ? "" : name + ": no such file, or it may not be read";
+  if (!std::ifstream(file)) return name + ": no such file, or it may not be read";
+  const std::string head = head_of(file).substr(0, 2);  // of UTF-16: its mark, or a letter in two bytes
+  const bool is_wide = head == "\xff\xfe" || head == "\xfe\xff" || (head.size() == 2 && head[0] * head[1] == 0);
+  return is_wide ? name + ": it is in UTF-16, or no text; expected a text in UTF-8" : "";
 }
 
 bool is_of_kind(const fs::path& file, FileKind kind) {

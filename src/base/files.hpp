@@ -15,8 +15,8 @@ bool same_file(const std::filesystem::path& one, const std::filesystem::path& ot
 // Where a link leads, also to a file that does not exist; a name that is no link itself.
 std::filesystem::path destination(std::filesystem::path name);
 
-// The reason why a file cannot be read: a sentence that begins with its name; nothing if it can. A pipe without a
-// writer would block for ever.
+// The reason why a text cannot be read: a sentence that begins with the name of its file; nothing if it can. A pipe
+// without a writer would block for ever.
 std::string unreadable(const std::filesystem::path& file);
 
 // The kinds of files that our programs write. A lock is an empty file; the others are recognized by their beginning.

@@ -274,6 +274,7 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number, double 
   std::vector<std::uint8_t> gone;
   const unsigned members = bonds_to_cut(body, block, cluster, gone);
   if (members == 0) return;
+  count_in_steps(body, block, cluster, gone, dt);
   const auto at = std::lower_bound(block.points.begin(), block.points.end(), cluster.points[0]);
   const int first = static_cast<int>(at - block.points.begin());
   const StepEnd start{body, start_, true, dt};

@@ -28,6 +28,14 @@
 
 namespace strut {
 
+// How short the steps are for the breaks in them, as sums over the ends of bonds; bonds of failed points, and those
+// that a falling limit breaks, do not count.
+struct BreaksInSteps {
+  double ends = 0;
+  double taken = 0;   // energy that these breaks take, over that which they take in short steps
+  double speed2 = 0;  // squares of the rate of stretch over the critical one, 1/s²
+};
+
 class Fracture : public BondBreaking {
  public:
   // Collective. The families must be complete. Allocates the damage fields and sets the critical values of the blocks
@@ -60,9 +68,12 @@ class Fracture : public BondBreaking {
   // Collective. The largest stretch of a bond over the one at which it breaks, at the present positions.
   double largest_stretch(const Body& body) const;
 
+  BreaksInSteps breaks_in_steps(const Communicator& ranks) const;  // collective
+
   double bytes(const Body& body) const;  // with the memory that steps in which bonds may break add
 
   void serialize(Archive& archive, Body& body);  // collective; restores to a body whose bonds are whole
+  void serialize_steps(Archive& archive);        // the breaks in steps
 
  private:
   // A cluster with points whose bonds break in this step, with its values before the break.
@@ -90,6 +101,9 @@ class Fracture : public BondBreaking {
   bool holds_energy(const Body& body, const MaterialBlock& block) const;
   unsigned bonds_to_cut(const Body& body, const MaterialBlock& block, const Cluster& cluster,
                         std::vector<std::uint8_t>& gone) const;
+  void count_in_steps(const Body& body, int i, int j, double load, double dt);
+  void count_in_steps(const Body& body, const MaterialBlock& block, const Cluster& cluster,
+                      const std::vector<std::uint8_t>& gone, double dt);
   void cut(Body& body, MaterialBlock& block, int cluster, double dt);
   void count(Body& body, const Affected& one);
   void restore(Body& body);
@@ -111,6 +125,7 @@ class Fracture : public BondBreaking {
   std::vector<double> whole_springs_;   // C of owned points with complete families, Pa/m⁵
   std::vector<double> most_steepness_;  // limit of the steepness of owned points that carry stress, 1/m²
   std::vector<Affected> affected_;
+  BreaksInSteps in_steps_;  // of this rank
 };
 
 // The fracture of a body from this time on, s, if its bonds may break.

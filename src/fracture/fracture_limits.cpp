@@ -1,4 +1,5 @@
-// Limits: the stretch at which bonds break, and the steepness that a family with broken bonds may have.
+// Limits: the stretch at which bonds break, how long steps are for that, and the steepness that a family with broken
+// bonds may have.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +14,8 @@
 namespace strut {
 
 namespace {
+
+using small::Lanes;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double of_failed = 1e-200;  // a limit that every bond exceeds
@@ -54,6 +57,77 @@ void Fracture::take_failed(const Body& body) {
     is_new[i] = true;
   }
   mark_for_check(body, is_new);
+}
+
+namespace {
+
+// True if the stress of a point of a gradual crack has fallen before it did work, in a step that led far beyond it.
+bool fell_at_once(const MaterialBlock& block, int i) {
+  const auto at = std::lower_bound(block.points.begin(), block.points.end(), i);
+  const auto k = static_cast<int>(at - block.points.begin());
+  const auto fell = [&]<class L>(const L& law) {
+    if constexpr (materials::opens_cracks<L>) {
+      for (int q = 0; q < block.points_per_cell(); ++q) {
+        const auto state = block.state_of<L>(block.index(k, q));
+        if (state.damage > 0.9 && state.dissipated * law.width < 0.5 * law.fracture_energy) return true;
+      }
+    }
+    return false;
+  };
+  return std::visit(fell, block.material.law);
+}
+
+}  // namespace
+
+// Adds one end of a bond that breaks in a step of dt; load: of its energy at the step's start, over the critical one,
+// if it breaks by that.
+//
+// By its stretch, which goes from s to s' in the step, a break takes s s'/s_c² of the energy of the bond at s_c, since
+// the force acts over the means of both ends (work_balance.hpp): over many breaks 1 − d²/6 where the steps are d s_c
+// long, but nothing where one leads from 0 beyond s_c. By its energy it takes that at the step's start. A gradual crack
+// takes what it should, or next to nothing if its stress falls to nothing in one step: measured where a step opens it
+// by 0.4 of its last opening, beneath a surface layer, which opens alone, by 0.25.
+void Fracture::count_in_steps(const Body& body, int i, int j, double load, double dt) {
+  constexpr double leap = 0.5;  // of the critical stretch
+  const int weaker = limits_[i] < limits_[j] ? i : j;
+  const double expansion = body.expansion_of_sites.empty() ? 0 : body.expansion_of_sites[weaker];
+  const double rest = (body.domain.reference(j) - body.domain.reference(i)).norm();
+  const double before = (start_[j] - start_[i]).norm() / rest - 1 - expansion,
+               after = (body.domain.current(j) - body.domain.current(i)).norm() / rest - 1 - expansion;
+  const double by_stretch = std::sqrt(limits_[weaker]) - 1 - expansion;
+  const double critical = load > 1 ? before / std::sqrt(load) : by_stretch, moved = (after - before) / critical;
+  if (!(critical > 0) || moved == 0 || (load <= 1 && before >= critical)) return;
+  const MaterialBlock& block = body.blocks[block_of_[i]];
+  const bool is_gradual = block.material.damage && block.material.damage->is_gradual;
+  const double by_step = !is_gradual                               ? before * after / (critical * critical)
+                         : moved < leap && !fell_at_once(block, i) ? 1
+                                                                   : 0;
+  in_steps_.ends += 1;
+  in_steps_.taken += load > 1 ? std::min(load, (1 + moved) * (1 + moved)) : by_step;
+  in_steps_.speed2 += moved * moved / (dt * dt);
+}
+
+void Fracture::count_in_steps(const Body& body, const MaterialBlock& block, const Cluster& cluster,
+                              const std::vector<std::uint8_t>& gone, double dt) {
+  std::vector<Lanes> loads(gone.size(), Lanes::Zero());
+  if (holds_energy(body, block)) {
+    energies_.over(body, cluster, start_, [&](std::size_t n, const Lanes& load, const Lanes&) { loads[n] = load; });
+  }
+  for (std::size_t n = 0; n < gone.size(); ++n) {
+    for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+      if (gone[n] >> l & 1) count_in_steps(body, cluster.points[l], cluster.near[n], loads[n][l], dt);
+    }
+  }
+}
+
+BreaksInSteps Fracture::breaks_in_steps(const Communicator& ranks) const {
+  return {ranks.sum(in_steps_.ends), ranks.sum(in_steps_.taken), ranks.sum(in_steps_.speed2)};
+}
+
+void Fracture::serialize_steps(Archive& archive) {
+  archive.rank_sum("breaks_in_steps_ends", in_steps_.ends);
+  archive.rank_sum("breaks_in_steps_taken", in_steps_.taken);
+  archive.rank_sum("breaks_in_steps_speed2", in_steps_.speed2);
 }
 
 // The limit of a point's steepness is `steepness_of_corners` times the least in its block, which is that of an interior

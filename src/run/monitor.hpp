@@ -37,7 +37,8 @@ class Monitor {
   // Collective. Contact between surfaces that gives way so much that bodies pressed on each other are too soft: told
   // once in a run, at its end.
   void check_soft_contact(const Ledger& ledger, const contact::Contact& contact, bool last, Steps steps);
-  void check_failed(double time);  // points without stress in an equilibrium: warns once
+  void check_breaks(const Fracture& fracture, double time);  // breaks in steps too long for them, at the end of a run
+  void check_failed(double time);                            // points without stress in an equilibrium: warns once
   // Plastic work that load steps miss (J; energies.hpp), at the end of a run of equilibria.
   void check_plastic_work(const Ledger& ledger, double missed);
   // Omissions of the deck, at some checks: material that passes through material without contact, and tools (named as
@@ -68,6 +69,7 @@ class Monitor {
     unstored,
     uncounted,
     soft_contact,
+    fast_breaks,
     count
   };
   static constexpr double checks = 200;       // checks per run of energies, interpenetration and tools between points

@@ -235,6 +235,7 @@ void Run::Parts::watch_step() {
     monitor->check_energy(now, last);
     monitor->check_resolution(now, last);
     monitor->check_soft_contact(now, solver.contact(), last, Monitor::Steps::of_time);
+    if (last && solver.fracture()) monitor->check_breaks(*solver.fracture(), solver.time());
   }
   progress->show(solver.steps(), solver.time(), solver.dt());
 }

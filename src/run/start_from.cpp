@@ -227,9 +227,10 @@ std::string StartState::story(const deck::Deck& deck, const Scene& scene) const 
 
 // Steps and work count from here; conditions that are not the same have no past.
 bool StartState::takes_of_steps(const std::string& name) const {
-  constexpr std::array counted = {"put_in",        "work_has_begun", "half_step",     "external_work",
-                                  "tool_work",     "contact_work",   "work_of_tools", "work_of_friction",
-                                  "lost_in_jumps", "largest_energy", "most_substeps", "updates"};
+  constexpr std::array counted = {"put_in",         "work_has_begun", "half_step",     "external_work",
+                                  "tool_work",      "contact_work",   "work_of_tools", "work_of_friction",
+                                  "lost_in_jumps",  "largest_energy", "most_substeps", "updates",
+                                  "breaks_in_steps"};
   if (name == "steps" || std::ranges::any_of(counted, [&](const char* one) { return name.starts_with(one); }))
     return false;
   if (changes_.same_conditions) return true;

@@ -39,12 +39,18 @@ std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain,
     const Vector X = domain.reference(i);
     const bool is_cut =
         std::ranges::any_of(cracks, [&](const Crack& crack) { return !points_on(crack, {i}, domain).empty(); });
+    int largest = i;  // in volume, of its family
+    domain.families.for_each(i, [&](int j) { largest = domain.volume(j) > domain.volume(largest) ? j : largest; });
+    const bool outweighs = domain.volume(largest) > 1e3 * domain.volume(i);
     text = text_of(word(domain.cloud.at), " ", domain.cloud.element_ids[i], " of block ",
                    domain.cloud.block_names[domain.cloud.blocks[i]], " at ", place_text(X), " has ",
                    domain.families.size(i), " neighbors: ", reason,
                    is_cut ? "; a crack (Bond Filters) runs through it and cuts its bonds to both sides: expected one "
                             "between layers of points. Move the crack"
-                          : ". Enlarge the horizon, mend the mesh");
+                   : outweighs ? text_of("; that at ", place_text(domain.reference(largest)), " has a volume of ",
+                                         domain.volume(largest), " m³ and outweighs the others, the point itself ",
+                                         domain.volume(i), " m³. Mend the mesh")
+                               : ". Enlarge the horizon, mend the mesh");
   }
   return found;
 }

@@ -386,6 +386,7 @@ void CentralDifference::serialize_steps(Archive& archive) {
   mirror_forces_.resize(side_count(body_.domain), Vector::Zero());
   serialize_mirror_forces(archive, mirror_forces_);
   contact_.serialize(archive, kinematics(), dt());
+  if (fracture_) fracture_->serialize_steps(archive);
   if (!archive.loading()) return;
   new_breaks();
   restrict_conditions();

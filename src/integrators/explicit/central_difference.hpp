@@ -30,6 +30,7 @@ class CentralDifference {
   double dt() const { return length_.dt(); }
   double critical_time_step() const { return length_.critical(contact_.stiffness()); }
   const contact::Contact& contact() const { return contact_; }
+  const std::optional<Fracture>& fracture() const { return fracture_; }
   const Conditions& conditions() const { return conditions_; }
 
   // One step is advance_velocity(); then, if wanted, output and the ledger, both at time(); then

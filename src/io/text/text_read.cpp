@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/errors.hpp"
+#include "base/files.hpp"
 #include "base/numbers.hpp"
 #include "base/parallel/gather_scatter.hpp"
 #include "io/exodus/exodus.hpp"
@@ -25,7 +26,11 @@ struct Line {
 // Parses a line; returns the error, or "".
 std::string parse(const std::string& text, Line& line) {
   const std::vector<std::string> words = to_words(text);
-  if (words.size() != 5) return "expected 5 columns (x y z block volume), found " + std::to_string(words.size());
+  if (text.find('\0') != std::string::npos) return "expected a text, found a byte 0";
+  if (words.size() != 5) {
+    return "expected 5 columns (x y z block volume), found " + std::to_string(words.size()) +
+           (trimmed(text).find('\r') != std::string_view::npos ? " and lines that end in CR alone" : "");
+  }
   double numbers[5] = {};
   for (int i = 0; i < 5; ++i) {
     const auto number = to_finite(words[i]);
@@ -44,9 +49,8 @@ std::string parse(const std::string& text, Line& line) {
 class TextFile {
  public:
   explicit TextFile(std::filesystem::path path) : path_(std::move(path)) {
-    if (std::filesystem::is_directory(path_)) throw Error(path_.string() + ": cannot open it: it is a directory");
+    if (const std::string why = unreadable(path_); !why.empty()) throw Error(why);
     file_.open(path_);
-    if (!file_) throw Error(path_.string() + ": cannot open it: no such file, or it may not be read");
   }
 
   // The next points, `most` at most; empty at the end.

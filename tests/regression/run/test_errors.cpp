@@ -695,6 +695,16 @@ TEST_F(Mistake, PointsWithTooFewNeighbors) {
       << shown;
 }
 
+// As in a file that ends within the exponent of its last volume.
+TEST_F(Mistake, APointThatOutweighsItsNeighborsIsNamed) {
+  folder.write("points.txt", cubes(7, {0, 0, 0}, 4, 4, 6, 1e-3) + "0.5e-3 0.5e-3 6.5e-3 7 1.000000e-0\n");
+  Parts parts = straggling_parts("Error");
+  parts.blocks = changed(parts.blocks, key("Horizon", "2.01e-3"), key("Horizon Factor", "1.75"));
+  expect_error(parts.text(),
+               {"points have too few neighbors", "that at (0.0005, 0.0005, 0.0065) m has a volume of 1 m³",
+                "the point itself 1e-09 m³. Mend the mesh"});
+}
+
 TEST_F(Mistake, PointsWithTooFewNeighborsAreDroppedOnRequest) {
   folder.write("points.txt", points_with_stragglers());
   const fs::path deck = write_deck(straggling_parts("Drop Any").text());

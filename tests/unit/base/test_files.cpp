@@ -139,5 +139,12 @@ TEST_F(Files, APipeIsNeitherReadNorWritten) {
   EXPECT_EQ(unreadable(write("file", "text")), "");
 }
 
+// As Excel and PowerShell write texts, with a mark at the beginning or without one.
+TEST_F(Files, ATextOfTwoBytesALetterIsNotRead) {
+  for (const std::string text :
+       {std::string("\377\3765"), std::string("\376\3775"), std::string("5\0", 2), std::string("\0005", 2)})
+    EXPECT_NE(unreadable(write("file", text)).find("UTF-16"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace strut

@@ -319,7 +319,7 @@ TEST_F(BrokenFile, UnknownElementType) {
 }
 
 TEST_F(BrokenFile, TextNamesTheLine) {
-  const std::pair<const char*, const char*> cases[] = {
+  const std::pair<std::string, const char*> cases[] = {
       {"0 0 0 1 1\n0 0 1\n", "line 2"},
       {"0 0 0 1 1\n\n0 0 1 1 x\n", "line 3: 'x'"},
       {"0 0 0 1.5 1\n", "'1.5' is not an integer"},
@@ -328,6 +328,9 @@ TEST_F(BrokenFile, TextNamesTheLine) {
       {"0 inf 0 1 1\n", "'inf'"},
       {"0 1e999 0 1 1\n", "'1e999'"},
       {"0 0 0 1 1 7\n", "found 6"},
+      {"0 0 0 1 1\r0 0 1 1 1\r", "found 10 and lines that end in CR alone"},
+      {std::string("0 0 0 1 1\0\n", 11), "found a byte 0"},
+      {"\377\3760", "it is in UTF-16"},
       {"header: x y block_id volume\n0 0 1 1\n",
        "line 1: two-dimensional problems are not there; expected the columns"},
       {"header: x y z block_id volume Angles\n0 0 0 1 1 7\n",
