@@ -232,7 +232,28 @@ TEST(Cracks, FacesOfGradualOnesThatMayTouchAreWarnedOf) {
   const std::string warning = "the cells beside such a crack bear pressure, but a thousandth of their shear";
   expect_told(told_with("Cohesive Crack", "Self Contact"), {"block 'bar' has contact", warning});
   EXPECT_EQ(told_with("Cohesive Crack", "").find(warning), std::string::npos);
-  EXPECT_EQ(told_with("Critical Stretch", "Self Contact").find(warning), std::string::npos);
+  expect_told(told_with("Critical Stretch", "Self Contact"), {"stress falls before bonds break", warning});
+}
+
+// One critical stretch takes another energy than is given where cracks open between two layers.
+TEST(Cracks, OfAFractureEnergyAreGradualWherePointsCanSoften) {
+  const auto told = [](const std::string& of_material, const std::string& factor) {
+    Parts parts = flying();
+    parts.materials = changed(copper(), "Elastic Correspondence\"/>\n", "Elastic Correspondence\"/>\n" + of_material);
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") +
+                                        key("Horizon Factor", factor) + key("Damage Model", "breaks"));
+    parts.damage = section("breaks", key("Damage Model", "Critical Stretch") + key("Fracture Energy", "100"));
+    const RunFolder folder;
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  const std::string gradual = "stress falls before bonds break", warning = "take 0.4 to 0.95 of the Fracture Energy";
+  expect_told(told("", "1.75"), {gradual});
+  expect_told(told(key("Formulation", "Quadratic Correspondence"), "1.75"), {gradual});
+  for (const std::string& text : {told("", "3.015"), told(key("Stabilization", "Silling"), "3.015")}) {
+    EXPECT_EQ(text.find(gradual), std::string::npos);
+    EXPECT_EQ(text.find(warning), std::string::npos);
+  }
+  expect_told(told(key("Stabilization", "Silling"), "1.75"), {warning});
 }
 
 TEST(Improbable, HeatsAndHardeningInOtherUnitsAreWarnedOf) {
