@@ -211,6 +211,8 @@ Check meeting_tools;
 // A warning for each tool thinner than 1.5 spacings where it meets a block: a roll by its diameter, a box
 // by the edges of the face that meets the block, unless they extend across it. Tools stop points only.
 Check thin_tools;
+// A line for each block that is thrown at a flat tool, with the part of its kinetic energy that is lost there.
+Check stopped_layers;
 
 // ---- overruled.cpp
 // A warning for each tool and condition if the tool's path meets points whose motion the condition

@@ -294,4 +294,34 @@ std::string thin_tools(const Situation& situation) {
   return text.str();
 }
 
+// A tool stops the layer of points that meets it within one step, and its energy is lost: measured of elastic bars of
+// 4, 8, 16 and 32 layers, 0.250, 0.125, 0.063 and 0.031 of the kinetic energy; half of that with points at nodes.
+std::string stopped_layers(const Situation& situation) {
+  constexpr double worth_saying = 0.01;
+  const Scene& scene = situation.scene;
+  const Domain& domain = scene.body.domain;
+  const std::vector<RigidTool> tools = tools_of(scene.conditions);
+  if (scene.quasi_static) return "";
+  std::string text;
+  for (std::size_t n = 0; n < tools.size(); ++n) {
+    const auto* half = std::get_if<HalfSpace>(&tools[n].shape);
+    for (std::size_t b = 0; half && b < situation.trajectories.size(); ++b) {
+      const Trajectory& block = situation.trajectories[b];
+      if (block.places.isEmpty() || !meets_block(tools[n], static_cast<int>(b), domain)) continue;
+      const Vector slowest = block.velocities.min().cwiseAbs().cwiseMin(block.velocities.max().cwiseAbs());
+      const double closing = -half->normal.dot(block.velocities.center());
+      if (!(closing > 0) || slowest.norm() == 0) continue;  // not thrown as a whole
+      const double layers = block.cells.sizes().dot(half->normal.cwiseAbs()) / situation.spacings[b];
+      const double lost = (domain.cloud.at == PointsAt::nodes ? 0.5 : 1) / layers;
+      if (lost < worth_saying) continue;
+      text +=
+          text_of(std::setprecision(2), "the tool '", scene.tools[n].name, "' stops the layer of points of block '",
+                  domain.cloud.block_names[b], "' that meets it at once: about ", 100 * lost,
+                  " % of the kinetic energy is lost there (Tool_Work), and a rebound is slower; contact with another "
+                  "body loses none\n");
+    }
+  }
+  return text;
+}
+
 }  // namespace strut
