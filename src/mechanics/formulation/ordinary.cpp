@@ -68,6 +68,23 @@ Symmetric stress_of(const materials::Moduli& moduli, const Tensor& U, double exp
   return symmetric_part(T * U / U.determinant());
 }
 
+// The Cauchy stress that the bonds of a point carry, Σ ω V t η⊗η/|η|, Pa. Few bonds turn without resistance, and an F
+// that is fitted to them may be anything.
+Tensor stress_of_bonds(const Body& body, int i) {
+  const ScalarState state = body.force_states.scalars[i];
+  Tensor sum = Tensor::Zero();
+  bonds::with_influence(body.influence, [&](auto weight) {
+    bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight,
+                [&](int j, double w, const auto& xi, double) {
+                  const double length = std::sqrt(bonds::dot(xi, xi));
+                  const Vector bond = body.domain.current(j) - body.domain.current(i);
+                  const double now = bond.norm();
+                  sum += w * (state.a * length + state.b * (now - length)) / now * bond * bond.transpose();
+                });
+  });
+  return sum;
+}
+
 // K⁻¹ of the intact bonds; zero if they do not span space.
 Symmetric present_shape_inverse(const Body& body, int i) {
   return body.has_lost_bonds(i) ? inverse_of(shape_tensor(body, i)) : body.shape_inverse[i];
@@ -94,7 +111,9 @@ void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const Lane
       point.deformation_gradient = at(N, l) * to_tensor(shape_inverse);
       const Tensor R = polar_rotation(point.deformation_gradient);
       point.rotation = Rotation(R);
-      point.stress = stress_of(moduli, R.transpose() * point.deformation_gradient, expansion[l]);
+      point.stress = body.has_lost_bonds(group.i[l])
+                         ? symmetric_part(R.transpose() * stress_of_bonds(body, group.i[l]) * R)
+                         : stress_of(moduli, R.transpose() * point.deformation_gradient, expansion[l]);
     }
   });
 }

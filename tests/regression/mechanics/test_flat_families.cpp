@@ -150,5 +150,29 @@ TEST(FlatFamilies, BearTheirViscosity) {
   EXPECT_GT(last.dissipated, 0);
 }
 
+// The deviatoric energy of a body bounds its von Mises stress: Σ V σ² <= 6 G W. A point of a fragment with few bonds,
+// which turn freely, would have a deformation gradient and a stress of any size (mean 24 times as large as this bound).
+TEST(FlatFamilies, OfFragmentsBearTheStressOfTheirBonds) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 12, 12, 3, 1e-3));
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.materials = section("glass", key("Material Model", "Elastic") + key("Density", "1000") +
+                                         key("Young's Modulus", "1e9") + key("Poisson's Ratio", "0.25"));
+  parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.006"));
+  parts.blocks = section("plate", key("Block Names", "all") + key("Material", "glass") + key("Horizon Factor", "1.75") +
+                                      key("Damage Model", "brittle"));
+  parts.conditions =
+      along("flight", "Initial Velocity", "all", "z", "-20") + plane("wall", "Rigid Plane", "all", "0 0 0", "0 0 1");
+  parts.times = key("Final Time", "60e-6");
+  Simulation run(folder, parts);
+  const Ledger end = run.go([](const Ledger&) {});
+  const Body& body = run.body();
+  double sum = 0;  // Pa² m³
+  for (int i = 0; i < body.owned(); ++i) sum += body.domain.volume(i) * std::pow(von_mises(body.points[i].stress), 2);
+  EXPECT_GT(end.fracture, 0.1 * end.kinetic) << "it is in fragments";
+  EXPECT_LT(body.domain.communicator.sum(sum), 6 * 0.4e9 * end.elastic);
+}
+
 }  // namespace
 }  // namespace strut::regression
