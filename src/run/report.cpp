@@ -10,6 +10,7 @@
 #include <iostream>
 #include <limits>
 #include <sstream>
+#include <variant>
 
 #include "base/errors.hpp"
 #include "base/parallel/threads.hpp"
@@ -17,6 +18,7 @@
 #include "fracture/fracture.hpp"
 #include "fracture/fragments.hpp"
 #include "integrators/explicit/step_length.hpp"
+#include "materials/user_law.hpp"
 #include "mechanics/make_body.hpp"
 
 namespace strut {
@@ -149,8 +151,6 @@ std::string memory_and_frame(const Scene& scene, const OutputVariables& variable
          "; a frame takes " + as_size(frame_bytes(variables, scene.points)) + "\n";
 }
 
-std::string critical_time_step_line(double limit) { return formatted("critical time step %.4g s\n", limit); }
-
 std::string step_warning(const StepControl& control, double limit, double time) {
   if (!(control.fixed_dt > limit)) return "";
   return formatted(
@@ -173,6 +173,23 @@ void check_step_at(double time, const StepControl& control, double limit) {
       formatted("Solver > Initial Time: at t = %.4g s numbers are %.2g s apart, too far for steps of %.2g s; "
                 "expected a time nearer to 0",
                 time, apart, step));
+}
+
+void check_libraries(const Body& body, const StepControl& control, double limit) {
+  const double whole = control.fixed_dt > 0 ? control.fixed_dt : control.safety_factor * limit;
+  if (!std::isfinite(whole)) return;
+  const std::vector<std::uint8_t>& levels = *body.time_levels;
+  std::string problem;
+  for (const MaterialBlock& block : body.blocks) {
+    const auto* law = std::get_if<materials::UserLaw>(&block.material.law);
+    if (!law) continue;
+    int level = 0;
+    for (const int i : block.points) level = std::max(level, levels.empty() ? 0 : static_cast<int>(levels[i]));
+    const std::string stiff = materials::too_stiff_in(*law, std::ldexp(whole, -level));
+    if (problem.empty() && !stiff.empty())
+      problem = "Materials > " + law->name + " > Library: '" + law->function.file + "' " + stiff;
+  }
+  raise_together(body.domain.communicator, problem);
 }
 
 namespace {
