@@ -4,13 +4,11 @@
 #include <bit>
 #include <cmath>
 #include <span>
-#include <sstream>
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "base/timing.hpp"
-#include "integrators/explicit/pushed_points.hpp"
-#include "integrators/period_work.hpp"
 #include "mechanics/mirror_forces.hpp"
 #include "mechanics/rigid_motion.hpp"
 #include "mechanics/serialize.hpp"
@@ -239,7 +237,7 @@ std::vector<Vector> CentralDifference::velocities_now() {
                             forces = *body_.force_density;
   if (dt() == 0) return before;
   const auto pass_tools = [this](Archive archive) {
-    archive.points("all points", owned_ids());
+    archive.points("all points", owned_ids(body_));
     serialize_tools(archive, conditions_, body_.owned());
   };
   Snapshot tools;
@@ -341,15 +339,10 @@ std::int64_t CentralDifference::new_breaks() {
 
 // Collective. Throws Error unless the run may continue with this report; else sets the warning.
 void CentralDifference::explain(const StepReport& report, const std::string& no_number) {
-  std::ostringstream text;
-  if (!no_number.empty()) {
-    text << no_number;
-  } else if (report.failure) {
-    text << "at t = " << time_ << " s, step " << steps() << " of " << dt()
-         << " s: " << describe(*report.failure, body_);
-  }
-  if (!went_on_) raise_together(body_.domain.communicator, text.str());
-  warning_ = text.str();
+  warning_ = no_number;
+  if (no_number.empty() && report.failure)
+    warning_ = text_of("at t = ", time_, " s, step ", steps(), " of ", dt(), " s: ", describe(*report.failure, body_));
+  if (!went_on_) raise_together(body_.domain.communicator, warning_);
 }
 
 // An inverted point still has a position, so a run may continue with it; other failures spread to the neighbors.
@@ -374,7 +367,7 @@ void CentralDifference::serialize(Archive& archive) {
 
 void CentralDifference::serialize_steps(Archive& archive) {
   archive.number("time", time_);
-  archive.points("all points", owned_ids());
+  archive.points("all points", owned_ids(body_));
   multi_stepping_.serialize(archive, body_);
   length_.serialize(archive, body_);
   serialize_tools(archive, conditions_, body_.owned());
