@@ -17,7 +17,7 @@ struct Sums {
 };
 
 std::vector<Sums> sums_of_this_rank(const Body& body) {
-  const std::vector<std::int64_t> ids = fragment_ids(body);
+  const std::vector<std::int64_t> ids = piece_ids(body.domain);
   std::map<std::int64_t, Sums> pieces;
   for (int i = 0; i < body.owned(); ++i) {
     Sums& piece = pieces[ids[i]];
@@ -32,8 +32,6 @@ std::vector<Sums> sums_of_this_rank(const Body& body) {
 }
 
 }  // namespace
-
-std::vector<std::int64_t> fragment_ids(const Body& body) { return piece_ids(body.domain); }
 
 std::vector<Fragment> fragments(const Body& body) {
   const std::vector<Sums> mine = sums_of_this_rank(body);

@@ -1,4 +1,4 @@
-// Fragments: sets of points that are connected by intact bonds.
+// Fragments: sets of points that are connected by intact bonds (topology/pieces.hpp).
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,6 @@ struct Fragment {
   double mass = 0;                   // kg
   Vector velocity = Vector::Zero();  // of its center of mass, m/s
 };
-
-// Collective. The id of the fragment of each owned point.
-std::vector<std::int64_t> fragment_ids(const Body& body);
 
 // Collective. All fragments on rank 0, the heaviest first; none on other ranks.
 std::vector<Fragment> fragments(const Body& body);

@@ -9,7 +9,7 @@
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/steepness.hpp"
 #include "topology/parallel_for.hpp"
-#include "topology/planes_through.hpp"
+#include "topology/mirror_planes.hpp"
 
 namespace strut {
 

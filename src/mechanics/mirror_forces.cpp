@@ -4,7 +4,7 @@
 
 #include "mechanics/force_sum.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
-#include "topology/mirror_reactions.hpp"
+#include "topology/mirror_planes.hpp"
 
 namespace strut {
 

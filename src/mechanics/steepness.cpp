@@ -5,7 +5,7 @@
 
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/bonds.hpp"
-#include "topology/planes_through.hpp"
+#include "topology/mirror_planes.hpp"
 
 namespace strut {
 
