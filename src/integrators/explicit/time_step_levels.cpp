@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "mechanics/formulation/formulation.hpp"
-#include "mechanics/frequency_bound.hpp"
+#include "mechanics/mechanics.hpp"
 #include "topology/parallel_for.hpp"
 
 namespace strut {

@@ -2,7 +2,6 @@
 
 #include "mechanics/formulation/cell_fit.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
-#include "mechanics/kernels/over_family.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 #include "mechanics/reflected.hpp"
 #include "topology/parallel_for.hpp"

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "mechanics/formulation/cell_fit.hpp"
-#include "mechanics/kernels/over_family.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 #include "topology/parallel_for.hpp"
 

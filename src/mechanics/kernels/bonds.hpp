@@ -375,3 +375,16 @@ inline ScalarOf<Family> residual_energy(std::size_t kind, const Family& family, 
 }
 
 }  // namespace strut::bonds
+
+namespace strut {
+
+// Calls visit(j, ω V_j, ξ) for each bond of point i, where SIMD is not worthwhile.
+template <class Visit>
+void over_family(const Body& body, int i, const Visit& visit) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight,
+                [&](int j, double w, const auto& xi, double) { visit(j, w, Vector(xi.c[0], xi.c[1], xi.c[2])); });
+  });
+}
+
+}  // namespace strut
