@@ -146,15 +146,15 @@ struct OfFarEnds : bonds::NearPoint {
 };
 
 Numbers numbers_of(const Vector& v) { return {{v[0], v[1], v[2]}}; }
-Vector vector_of(const Numbers& numbers) { return {numbers.c[0], numbers.c[1], numbers.c[2]}; }
 
 // Calls add<stabilization>(its number, j, weight, ξ) for each bond of a point's family.
 template <class Family, class Add>
 void over_springs(const Body& body, const Family& family, const Add& add) {
   bonds::with_influence(body.influence, [&](auto omega) {
     bonds::over(family, body.domain.sites.data(), omega, [&](int j, double weight, const Numbers& xi, double) {
-      for_each_bond_stabilization(
-          [&]<class S>(const S&, std::size_t kind) { add.template operator()<S>(kind, j, weight, vector_of(xi)); });
+      for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) {
+        add.template operator()<S>(kind, j, weight, bonds::to_vector(xi));
+      });
     });
   });
 }
@@ -177,7 +177,7 @@ double lost(const StepEnd& end, const std::vector<GradientState>& start, int i) 
                  after = residual(finish, body.domain.current(j) - body.domain.current(i));
     const Numbers force = S::bond_force(weight * (stiffness(start) - stiffness(finish)), numbers_of(z), numbers_of(xi));
     const double part = finish[j].stiffness() < start[j].stiffness() ? 0.5 : 1;
-    sum += part * 0.5 * vector_of(force).dot(after);
+    sum += part * 0.5 * bonds::to_vector(force).dot(after);
   };
   over_springs(body, bonds::OfPoint{{i}, body.domain.families}, add);
   return body.domain.volume(i) * sum;
@@ -194,7 +194,7 @@ BondWorkBalance SpringWorkBalance::of(int i, std::span<const int> family) const 
     const Tensor F = 0.5 * (bonds::tensor_of(now[i]) + bonds::tensor_of(now[j]));
     const Vector z = end.position(j) - end.position(i) - F * xi;
     const Numbers force = S::bond_force(weight * C, numbers_of(z), numbers_of(xi));
-    const Vector t = vector_of(force);
+    const Vector t = bonds::to_vector(force);
     const Vector moved = body.domain.current(j) - body.domain.current(i) - end.start[j] + end.start[i];
     const bool far_lost = body.force_states.tensors[j].lost_bonds() > 0;
     sums.energy += (far_lost ? 0.25 : 0.5) * z.dot(t);

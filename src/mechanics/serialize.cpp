@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
-#include "mechanics/formulation/flow.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/passes.hpp"
 
 namespace strut {

@@ -10,7 +10,7 @@
 #include "base/timing.hpp"
 #include "integrators/ledger.hpp"
 #include "integrators/quasi_static/turn.hpp"
-#include "mechanics/formulation/flow.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/mirror_forces.hpp"
 #include "mechanics/serialize.hpp"
 

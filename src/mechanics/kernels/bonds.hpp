@@ -146,6 +146,8 @@ Tensor3<T> zero_tensor() {
   return {{{v.c[0], v.c[1], v.c[2]}, {v.c[0], v.c[1], v.c[2]}, {v.c[0], v.c[1], v.c[2]}}};
 }
 
+inline Vector to_vector(const Vector3<double>& v) { return {v.c[0], v.c[1], v.c[2]}; }
+
 // u − v, with u of a far end and v of the points.
 template <class T>
 Vector3<T> apart(const Eigen::Array4d& far, const Vector3<T>& own) {
@@ -383,7 +385,7 @@ template <class Visit>
 void over_family(const Body& body, int i, const Visit& visit) {
   bonds::with_influence(body.influence, [&](auto weight) {
     bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight,
-                [&](int j, double w, const auto& xi, double) { visit(j, w, Vector(xi.c[0], xi.c[1], xi.c[2])); });
+                [&](int j, double w, const auto& xi, double) { visit(j, w, bonds::to_vector(xi)); });
   });
 }
 
