@@ -238,6 +238,8 @@ Vector stretch_at(const std::vector<Period>& periods, double t) {
   return stretch;
 }
 
+void Domain::stretch_sides(double t) { halo.set_stretch(stretch_at(periods, t)); }
+
 PointCloud whole_cloud(const Domain& domain) {
   PointCloud cloud = domain.cloud;
   for (int i = 0; i < domain.owned; ++i) {
@@ -251,6 +253,14 @@ double family_volume(const Domain& domain, int i) {
   double volume = 0;
   domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
   return volume;
+}
+
+std::size_t largest_whole_family(const Domain& domain) {
+  std::size_t most = 0;
+  for (int i = 0; i < domain.owned; ++i) {
+    most = std::max(most, domain.families.size(i) + domain.families.broken[i].size());
+  }
+  return static_cast<std::size_t>(domain.communicator.max(static_cast<double>(most)));
 }
 
 Images images_of(const Domain& domain, double reach) {

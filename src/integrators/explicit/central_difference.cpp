@@ -46,7 +46,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
                                      double initial_time, std::optional<Fracture> fracture)
     : CentralDifference(body, std::move(conditions), std::move(contact), control, ToBeRestored(), std::move(fracture)) {
   time_ = initial_time;
-  stretch_sides(time_);
+  body_.domain.stretch_sides(time_);
   for (MaterialBlock& block : body_.blocks) block.rest_frequency_bound = largest_frequency_bound(body_, block);
   find_rigid_motion(body_);
   start({});
@@ -151,7 +151,7 @@ StepReport CentralDifference::substeps() {
 StepReport CentralDifference::substep(int level, double t) {
   const PointTimeSteps steps = point_steps();
   const std::vector<int>& moved = multi_stepping_.moved(level);
-  stretch_sides(t);
+  body_.domain.stretch_sides(t);
   const int count = static_cast<int>(moved.size());
   for_each_point(0, count, [&](int n) { drift(moved[n], steps); });
   const double impulse_time = std::ldexp(dt(), -level);
@@ -268,7 +268,7 @@ void CentralDifference::drift_to_next_time() {
   const PointTimeSteps steps = point_steps();
   for_each_point(0, body_.owned(), [&](int i) { drift(i, steps); });
   time_ = length_.next_time();
-  stretch_sides(time_);
+  body_.domain.stretch_sides(time_);
   length_.count_step();
   updates_ += multi_stepping_.updates_a_point();
   most_substeps_ = std::max(most_substeps_, 1 << multi_stepping_.level_count());
@@ -292,8 +292,6 @@ void CentralDifference::reassign_levels(StepReport& report, const std::vector<st
   restrict_conditions();
   length_.take_levels(multi_stepping_);
 }
-
-void CentralDifference::stretch_sides(double t) { body_.domain.halo.set_stretch(stretch_at(body_.domain.periods, t)); }
 
 void CentralDifference::restrict_conditions() {
   conditions_of_level_.clear();

@@ -90,7 +90,6 @@ class CentralDifference {
   void drift_to_next_time();
   void reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed);
   void restrict_conditions();
-  void stretch_sides(double t);
   StepReport substeps();
   StepReport substep(int level, double t);
   void sum_all_forces(bool with_diagnostics);

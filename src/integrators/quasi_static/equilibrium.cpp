@@ -112,7 +112,7 @@ void Equilibrium::begin(double t, double dt) {
   left_.clear();
   parts_.separate();
   begins_ = true;
-  stretch_sides(t + dt);
+  body_.domain.stretch_sides(t + dt);
   constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
   tools_.begin(body_, t, dt);
   if (fracture_) fracture_->start_criteria(body_);
@@ -135,8 +135,6 @@ std::vector<double> Equilibrium::forces_of_expansion() {
   committed_.restore_materials(body_);
   return parts_.norms(forces, body_.domain.communicator);
 }
-
-void Equilibrium::stretch_sides(double t) { body_.domain.halo.set_stretch(stretch_at(body_.domain.periods, t)); }
 
 void Equilibrium::follow_sides() {
   const Vector more = stretch_at(body_.domain.periods, t_ + dt_) - stretch_at(body_.domain.periods, t_);
@@ -286,7 +284,7 @@ std::vector<Tensor> Equilibrium::contact_springs() {
 
 void Equilibrium::go_back() {
   committed_.restore(body_);
-  stretch_sides(t_);
+  body_.domain.stretch_sides(t_);
   advance(0, t_, true);
   add_forces(conditions_, t_, body_);
   add_contact();  // for its energy

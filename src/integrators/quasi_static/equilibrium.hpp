@@ -150,7 +150,6 @@ class Equilibrium {
   void begin_flow_of_cells();
   void serialize_of_pieces(Archive& archive, const std::string& name, std::vector<double>& of_pieces);
   void hold_at(double t);
-  void stretch_sides(double t);
 
   Body& body_;
   Conditions conditions_;
