@@ -13,10 +13,10 @@ namespace strut {
 
 std::vector<Fragment> fragments(const Body& body) {
   std::map<std::int64_t, Fragment> pieces;  // with their momenta in place of velocities
-  const auto add = [&pieces](const Fragment& one) {
-    Fragment& piece = pieces[one.id];
-    piece.id = one.id, piece.points += one.points, piece.mass += one.mass;
-    for (int c = 0; c < 3; ++c) piece.velocity[c] += one.velocity[c];
+  const auto add = [&pieces](std::int64_t id, std::int64_t points, double mass) -> std::array<double, 3>& {
+    Fragment& piece = pieces[id];
+    piece.id = id, piece.points += points, piece.mass += mass;
+    return piece.velocity;
   };
   const auto take_all = [&pieces] {
     std::vector<Fragment> all;
@@ -25,11 +25,16 @@ std::vector<Fragment> fragments(const Body& body) {
   };
   const std::vector<std::int64_t> ids = piece_ids(body.domain);
   for (int i = 0; i < body.owned(); ++i) {
-    const Vector momentum = 0.5 * body.mass(i) * (body.previous_velocity[i] + body.velocity[i]);
-    add({ids[i], 1, body.mass(i), {momentum[0], momentum[1], momentum[2]}});
+    std::array<double, 3>& momentum = add(ids[i], 1, body.mass(i));
+    for (int c = 0; c < 3; ++c) {
+      momentum[c] += 0.5 * body.mass(i) * (body.previous_velocity[i][c] + body.velocity[i][c]);
+    }
   }
   const std::vector<Fragment> mine = take_all();
-  for (const Fragment& one : gather(body.domain.communicator, std::span(mine))) add(one);
+  for (const Fragment& one : gather(body.domain.communicator, std::span(mine))) {
+    std::array<double, 3>& momentum = add(one.id, one.points, one.mass);
+    for (int c = 0; c < 3; ++c) momentum[c] += one.velocity[c];
+  }
   std::vector<Fragment> all = take_all();
   for (Fragment& piece : all) {
     for (double& v : piece.velocity) v /= piece.mass;

@@ -11,7 +11,7 @@ enum class Influence { one, linear_decay, cubic_decay };
 //   ordinary: the linear elastic solid of Silling et al. (2007), with forces along the bonds; it takes only the elastic
 //   moduli of the law
 //   quadratic: the family gives F and its gradient over the cell of the point, the law stresses at four integration
-//   points of the cell, and these the force of each bond (quadratic_fits.hpp)
+//   points of the cell, and these the force of each bond (quadratic_fit.hpp)
 enum class Formulation { correspondence, ordinary, quadratic };
 
 // Measured cost of a step of a point by quadratic correspondence, relative to a point by another formulation
