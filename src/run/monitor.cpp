@@ -268,7 +268,7 @@ void Monitor::check_meeting(double time, const Conditions& conditions, const std
   }
 }
 
-void Monitor::serialize(Archive& archive) {
+void Monitor::serialize(Archive& archive, std::size_t tools) {
   archive.number("first_step", first_step_);
   archive.number("ledgers", ledgers_);
   archive.number("next_look", next_interpenetration_);
@@ -280,9 +280,6 @@ void Monitor::serialize(Archive& archive) {
   archive.number("most_in_contact", most_in_contact_);
   archive.number("part_in_contact", part_in_contact_);
   for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), warned_[what]);
-}
-
-void Monitor::serialize_tools(Archive& archive, std::size_t tools) {
   overlapped_.resize(tools * tools, 0);
   for (std::size_t pair = 0; pair < overlapped_.size(); ++pair)
     archive.number("overlapped_" + std::to_string(pair), overlapped_[pair]);

@@ -169,8 +169,7 @@ void Run::Parts::open(bool continued) {
   checkpoint.emplace(deck, communicator, [this](Archive& archive) {
     with_solver([&](auto& solver) { solver.serialize(archive); });
     serialize_sets(archive, scene->body, names_of_probes(deck));
-    monitor->serialize(archive);
-    monitor->serialize_tools(archive, scene->tools.size());
+    monitor->serialize(archive, scene->tools.size());
     balance.serialize(archive, scene->body);
     writers->serialize(archive, number_of_steps(), time());
     libraries->serialize(archive);
