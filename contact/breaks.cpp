@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "topology/neighbors/whole_family.hpp"
 
 namespace strut::contact {
 

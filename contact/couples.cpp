@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "topology/mirror_reactions.hpp"
+#include "topology/mirror_planes.hpp"
 
 namespace strut::contact {
 

@@ -10,7 +10,7 @@
 #include "contact/search/clusters.hpp"
 #include "contact/search/pairs.hpp"
 #include "topology/bounding_box.hpp"
-#include "topology/mirror_reactions.hpp"
+#include "topology/mirror_planes.hpp"
 #include "topology/nearby_ranks.hpp"
 
 namespace strut::contact {

@@ -7,7 +7,7 @@
 #include "advice/checks.hpp"
 #include "advice/lattice_axes.hpp"
 #include "base/text.hpp"
-#include "fracture/plates.hpp"
+#include "fracture/separation.hpp"
 #include "mechanics/hindered_breaks.hpp"
 #include "setup/blocks.hpp"
 

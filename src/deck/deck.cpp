@@ -111,7 +111,7 @@ std::vector<ReadFile> read_files(const Deck& deck, const std::vector<fs::path>& 
 }
 
 // In the longest steps that the run may take. The length of explicit ones is known once there are points
-// (first_step.hpp); equilibria have their load steps.
+// (run/report.hpp: check_libraries); equilibria have their load steps.
 void check_stiffness(const Deck& deck, Problems& problems) {
   const Solver& solver = deck.next_solver ? *deck.next_solver : deck.solver;
   const double duration = solver.duration();

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <string>
-#include <utility>
 
 #include "base/errors.hpp"
-#include "fracture/state_column.hpp"
+#include "base/text.hpp"
+#include "fracture/fitted_criterion.hpp"
 #include "topology/parallel_for.hpp"
 
 namespace strut {
@@ -32,11 +30,9 @@ double variance_of_ball(const MaterialBlock& block) {
 bool averages(const MaterialBlock& block) { return number_of_indicator(block) >= 0 && variance_of_ball(block) > 0; }
 
 std::string too_wide(const Body& body, std::size_t b) {
-  std::ostringstream text;
-  text << "Damage Models: the Averaging Radius of block '" << body.blocks[b].name << "' is "
-       << body.blocks[b].material.damage->ductility->averaging_radius / body.domain.blocks[b].spacing
-       << " spacings; expected at most some 50. Is it in m?";
-  return text.str();
+  return text_of("Damage Models: the Averaging Radius of block '", body.blocks[b].name, "' is ",
+                 body.blocks[b].material.damage->ductility->averaging_radius / body.domain.blocks[b].spacing,
+                 " spacings; expected at most some 50. Is it in m?");
 }
 
 }  // namespace

@@ -14,9 +14,8 @@ namespace {
 // Σ ω V |ξ|, m⁴.
 double sum_of_lengths(const Body& body, int i) {
   double sum = 0;
-  bonds::with_influence(body.influence, [&](auto weight) {
-    bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight,
-                [&](int, double w, const auto& xi, double) { sum += w * std::sqrt(bonds::dot(xi, xi)); });
+  over_family(body, i, [&](int, double w, const Vector& xi) {
+    sum += w * std::sqrt(xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2]);
   });
   return sum;
 }

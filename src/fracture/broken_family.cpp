@@ -36,11 +36,8 @@ bool refit_shape(Body& body, MaterialBlock& block, int k, double most) {
 // F from the positions at the start of a step, over the family that is left.
 Tensor gradient_at_start(const Body& body, int i, const StepEnd& start) {
   Tensor N = Tensor::Zero();
-  bonds::with_influence(body.influence, [&](auto weight) {
-    bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight,
-                [&](int j, double w, const auto& xi, double) {
-                  N += w * (start.position(j) - start.position(i)) * Vector(xi.c[0], xi.c[1], xi.c[2]).transpose();
-                });
+  over_family(body, i, [&](int j, double w, const Vector& xi) {
+    N += w * (start.position(j) - start.position(i)) * xi.transpose();
   });
   return N * to_tensor(body.shape_inverse[i]);
 }

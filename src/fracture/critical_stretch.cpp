@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "fracture/plates.hpp"
 #include "fracture/separation.hpp"
 #include "mechanics/kernels/bonds.hpp"
 

@@ -1,9 +1,9 @@
 #include "fracture/fitted_criterion.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <variant>
 
-#include "fracture/state_column.hpp"
 #include "topology/parallel_for.hpp"
 
 namespace strut {
@@ -31,6 +31,15 @@ double growth(const MaterialBlock& block, const Symmetric& stress, double rate, 
 }
 
 }  // namespace
+
+int state_column(const MaterialBlock& block, std::string_view name) {
+  const auto column = [&]<class L>(const L&) {
+    const auto& names = L::state_names;
+    const auto at = std::find(names.begin(), names.end(), name);
+    return at == names.end() ? -1 : static_cast<int>(at - names.begin());
+  };
+  return std::visit(column, block.material.law);
+}
 
 FittedCriterion::FittedCriterion(Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {

@@ -6,11 +6,15 @@
 // family's cells (least squares, weighted by volume) and the mean stress of its own cell. Broken bonds take no part.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "mechanics/body.hpp"
 
 namespace strut {
+
+// The column of a variable in the state of a block's law; -1 if the law has none of this name.
+int state_column(const MaterialBlock& block, std::string_view name);
 
 class FittedCriterion {
  public:

@@ -6,7 +6,6 @@
 
 #include "base/timing.hpp"
 #include "fracture/broken_family.hpp"
-#include "fracture/fading_springs.hpp"
 #include "fracture/separation.hpp"
 #include "fracture/work_balance.hpp"
 #include "mechanics/kernels/bonds.hpp"

@@ -24,7 +24,7 @@
 #include "fracture/fitted_criterion.hpp"
 #include "fracture/travel.hpp"
 #include "fracture/work_balance.hpp"
-#include "mechanics/bond_breaking.hpp"
+#include "mechanics/mechanics.hpp"
 
 namespace strut {
 

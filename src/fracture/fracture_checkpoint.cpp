@@ -12,7 +12,6 @@
 #include "mechanics/make_body.hpp"
 #include "mechanics/reflected.hpp"
 #include "mechanics/steepness.hpp"
-#include "topology/neighbors/whole_family.hpp"
 
 namespace strut {
 

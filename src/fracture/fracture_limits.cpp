@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "fracture/fracture.hpp"
 #include "fracture/separation.hpp"
 #include "mechanics/steepness.hpp"
-#include "topology/planes_through.hpp"
+#include "topology/mirror_planes.hpp"
 
 namespace strut {
 
@@ -28,10 +28,8 @@ void Fracture::set_limits(const Body& body, double time) {
     const auto& damage = block.material.damage;
     const double s = damage && damage->critical_stretch ? (*damage->critical_stretch)(0, 0, 0, time) : never;
     if (!(s > 0)) {  // the same on all ranks
-      std::ostringstream text;
-      text << "the critical stretch of block '" << block.name << "' is " << s << " at t = " << time
-           << " s; expected a number > 0";
-      throw Error(text.str());
+      throw Error(text_of("the critical stretch of block '", block.name, "' is ", s, " at t = ", time,
+                          " s; expected a number > 0"));
     }
     of_block.push_back(1 + s);
   }

@@ -77,6 +77,10 @@ double part_that_releases(const materials::Moduli& moduli, const Tensor& strain,
 // spacing and horizon.
 void set_critical_values(Body& body);
 
+// For a block of ordinary points with a fracture energy: energy that a flat cut across a plate of so many layers
+// dissipates, over the fracture energy. The critical value of the block is that of a lattice without faces.
+double part_in_plates(const Body& body, std::size_t block, int layers);
+
 // Sets the length over which a crack smears its opening, for blocks whose points may fail: twice the reach of their
 // families, because all points within it on both sides of a displacement jump have it in their deformation gradients.
 // The reach is the block's largest horizon, or 1.75 spacings by quadratic correspondence, so a graded block takes less

@@ -1,9 +1,12 @@
 #include "fracture/work_balance.hpp"
 
+#include <algorithm>
+
 #include "mechanics/energies.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/bonds.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
+#include "topology/parallel_for.hpp"
 
 namespace strut {
 
@@ -144,6 +147,42 @@ struct OfFarEnds : bonds::NearPoint {
 
 Numbers numbers_of(const Vector& v) { return {{v[0], v[1], v[2]}}; }
 
+// Calls add<stabilization>(its number, j, weight, ξ) for each bond of a point's family.
+template <class Family, class Add>
+void over_springs(const Body& body, const Family& family, const Add& add) {
+  bonds::with_influence(body.influence, [&](auto omega) {
+    bonds::over(family, body.domain.sites.data(), omega, [&](int j, double weight, const Numbers& xi, double) {
+      for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) {
+        add.template operator()<S>(kind, j, weight, bonds::to_vector(xi));
+      });
+    });
+  });
+}
+
+// Energy that the springs of owned point i lose, J; half of that of a bond whose far end loses, too.
+double lost(const StepEnd& end, const std::vector<GradientState>& start, int i) {
+  const Body& body = end.body;
+  const std::vector<GradientState>& finish = body.force_states.gradients;
+  double sum = 0;
+  const auto add = [&]<class S>(std::size_t kind, int j, double weight, const Vector& xi) {
+    if (body.force_states.tensors[j].lost_bonds() > 0) return;
+    const auto stiffness = [&](const std::vector<GradientState>& at) {
+      return 2 * std::min(bonds::stiffness_of(kind, at[i].stiffness(), at[i].kind()),
+                          bonds::stiffness_of(kind, at[j].stiffness(), at[j].kind()));
+    };
+    const auto residual = [&](const std::vector<GradientState>& at, const Vector& eta) -> Vector {
+      return eta - 0.5 * (bonds::tensor_of(at[i]) + bonds::tensor_of(at[j])) * xi;
+    };
+    const Vector z = residual(start, end.start[j] - end.start[i]),
+                 after = residual(finish, body.domain.current(j) - body.domain.current(i));
+    const Numbers force = S::bond_force(weight * (stiffness(start) - stiffness(finish)), numbers_of(z), numbers_of(xi));
+    const double part = finish[j].stiffness() < start[j].stiffness() ? 0.5 : 1;
+    sum += part * 0.5 * bonds::to_vector(force).dot(after);
+  };
+  over_springs(body, bonds::OfPoint{{i}, body.domain.families}, add);
+  return body.domain.volume(i) * sum;
+}
+
 }  // namespace
 
 BondWorkBalance SpringWorkBalance::of(int i, std::span<const int> family) const {
@@ -155,23 +194,28 @@ BondWorkBalance SpringWorkBalance::of(int i, std::span<const int> family) const 
     const Tensor F = 0.5 * (bonds::tensor_of(now[i]) + bonds::tensor_of(now[j]));
     const Vector z = end.position(j) - end.position(i) - F * xi;
     const Numbers force = S::bond_force(weight * C, numbers_of(z), numbers_of(xi));
-    const Vector t(force.c[0], force.c[1], force.c[2]);
+    const Vector t = bonds::to_vector(force);
     const Vector moved = body.domain.current(j) - body.domain.current(i) - end.start[j] + end.start[i];
     const bool far_lost = body.force_states.tensors[j].lost_bonds() > 0;
     sums.energy += (far_lost ? 0.25 : 0.5) * z.dot(t);
     sums.work += 0.5 * t.dot(moved);
     if (!far_lost) sums.work += 0.5 * t.dot(moved - (bonds::tensor_of(finish[j]) - bonds::tensor_of(start[j])) * xi);
   };
-  bonds::with_influence(body.influence, [&](auto omega) {
-    bonds::over(OfFarEnds{{i}, family}, body.domain.sites.data(), omega,
-                [&](int j, double weight, const Numbers& xi, double) {
-                  for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) {
-                    add.template operator()<S>(kind, j, weight, Vector(xi.c[0], xi.c[1], xi.c[2]));
-                  });
-                });
-  });
+  over_springs(body, OfFarEnds{{i}, family}, add);
   const double volume = body.domain.volume(i);
   return {volume * sums.energy, volume * sums.work};
+}
+
+void count_fading(Body& body, const StepEnd& end, const std::vector<GradientState>& start) {
+  if (start.size() != body.force_states.gradients.size()) return;  // no step has begun
+  for (const MaterialBlock& block : body.blocks) {
+    if (!springs_fade(block) || block.in_rigid_motion) continue;
+    for_each_point(0, static_cast<int>(block.points.size()), [&](int k) {
+      const int i = block.points[k];
+      const bool fades = body.points[i].stabilization < start[i].stiffness();  // not for a step, as of a crushed point
+      if (fades && !(body.force_states.tensors[i].lost_bonds() > 0)) body.fracture_energy[i] += lost(end, start, i);
+    });
+  }
 }
 
 }  // namespace strut

@@ -1,11 +1,12 @@
 // The ledger: the energy balance of a run at one time.
 #pragma once
 
-#include "base/math/tensors.hpp"
+#include <vector>
+
+#include "conditions/impulse_work.hpp"
+#include "mechanics/energies.hpp"
 
 namespace strut {
-
-struct Body;
 
 struct Ledger {
   double time = 0, dt = 0;                                             // s
@@ -24,6 +25,7 @@ struct Ledger {
   double balance_error = 0;          // |gained|/largest
   Vector momentum = Vector::Zero();  // kg m/s
 
+  void take(const Energies& stored);
   // `largest_so_far`: of the ledgers before this one; energy_of_round_off() before the first.
   void balance(double held, double put_in, double& largest_so_far);
 };
@@ -31,5 +33,21 @@ struct Ledger {
 // Collective. Energy below which all may be round-off: that of a strain of 1e-12, J. Round-off of positions makes
 // strains of some 1e-16 times their distance from the origin in spacings.
 double energy_of_round_off(const Body& body);
+
+// The work of the forces through periodic sides when their distance changes.
+
+// A time at which forces act, the lengths of the steps before and after it (`before`: 0 at the start of a run), and the
+// time over which the impulse of the forces acts; all in s.
+struct TimeOfImpulse {
+  double t, before, after, impulse;
+};
+
+// `forces`: of mechanics/mirror_forces.hpp, N; nothing without periods.
+void add_period_work(const Domain& domain, const std::vector<Vector>& forces, const TimeOfImpulse& at,
+                     ImpulseWork& work);
+
+// The work from t over dt (s) between equilibria, J. `before`, `after`: the forces at these times.
+double period_work(const Domain& domain, const std::vector<Vector>& before, const std::vector<Vector>& after, double t,
+                   double dt);
 
 }  // namespace strut

@@ -16,7 +16,6 @@
 #include "mechanics/integration_points.hpp"
 #include "mechanics/material_block.hpp"
 #include "topology/domain.hpp"
-#include "topology/site.hpp"
 
 namespace strut {
 

@@ -7,15 +7,6 @@
 
 namespace strut {
 
-namespace {
-
-double temperature(const HeatedPoints& heated, const Body& body, int i, double t) {
-  const Vector X = body.domain.reference(i);
-  return heated.temperature(X, t);
-}
-
-}  // namespace
-
 void add_heated(Body& body, HeatedPoints heated) {
   if (body.expansion.empty()) body.expansion.use(body.owned());
   body.heated.push_back(std::move(heated));
@@ -25,7 +16,7 @@ void set_reference_temperatures(Body& body, double t) {
   for (const HeatedPoints& heated : std::views::reverse(body.heated)) {
     for (const int i : heated.points) {
       double& reference = body.expansion[i].reference;
-      if (std::isnan(reference)) reference = temperature(heated, body, i, t);
+      if (std::isnan(reference)) reference = heated.temperature(body.domain.reference(i), t);
     }
   }
 }
@@ -39,7 +30,8 @@ void set_expansion(Body& body, double time, double dt, int level) {
     for (const int i : heated.points) {
       const double alpha = body.block_of(i).material.thermal_expansion;
       if (alpha == 0 || !body.is_active(i, level)) continue;
-      body.expansion[i].now = alpha * (temperature(heated, body, i, time) - body.expansion[i].reference);
+      body.expansion[i].now =
+          alpha * (heated.temperature(body.domain.reference(i), time) - body.expansion[i].reference);
     }
   }
 }

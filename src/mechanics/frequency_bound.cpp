@@ -1,9 +1,8 @@
-#include "mechanics/frequency_bound.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "mechanics/formulation/quadratic_fits.hpp"
+#include "mechanics/mechanics.hpp"
 #include "topology/parallel_for.hpp"
 
 namespace strut {

@@ -1,6 +1,5 @@
-#include "mechanics/internal_force.hpp"
-
 #include "mechanics/force_sum.hpp"
+#include "mechanics/mechanics.hpp"
 #include "mechanics/rigid_motion.hpp"
 
 namespace strut {

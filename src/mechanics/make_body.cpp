@@ -8,8 +8,8 @@
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/steepness.hpp"
+#include "topology/mirror_planes.hpp"
 #include "topology/parallel_for.hpp"
-#include "topology/planes_through.hpp"
 
 namespace strut {
 

@@ -61,7 +61,7 @@ struct MaterialBlock {
                                       .meaning = "1 where the metal of a cell by quadratic correspondence has flowed",
                                       .persistent = true,
                                       .variable = "Flowed"},
-                                     When::if_used);  // flow.hpp
+                                     When::if_used);  // begin_flow
   PointField<OrdinaryPoint> ordinary =
       fields.add<std::vector<OrdinaryPoint>>(At::point, OrdinaryPoint::parts(), When::if_used);
   PointField<ViscousPoint> viscous =

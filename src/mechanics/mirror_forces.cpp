@@ -4,11 +4,13 @@
 
 #include "mechanics/force_sum.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
-#include "topology/mirror_reactions.hpp"
+#include "topology/mirror_planes.hpp"
 
 namespace strut {
 
 namespace {
+
+using bonds::to_vector;
 
 // The images in the family of a point that a predicate selects.
 template <class Picks>
@@ -23,8 +25,6 @@ struct OfImages : bonds::NearPoint {
     });
   }
 };
-
-Vector to_vector(const small::Vector3<double>& v) { return {v.c[0], v.c[1], v.c[2]}; }
 
 // The force density (N/m³) of some bonds of a point by all formulations. `active`: the bonds of `family` whose far ends
 // act at this time. `own`: true if the point's own state acts at this time, on all bonds of `family`.
@@ -58,12 +58,7 @@ Vector force_of(const Body& body, const Family& family, const Active& active, bo
     force += to_vector(bonds::quadratic_far_force(active, sites, multipliers, states.quadratics.data(), weight));
     if (own && body.block_of(i).is_quadratic()) {
       QuadraticFit fit;
-      bonds::over(family, sites, weight, [&](int j, double w, const auto& xi, double) {
-        const auto q = bonds::squares(xi);
-        fit.sums[0] += w;
-        for (int c = 0; c < 3; ++c) fit.sums[1 + c] += w * xi.c[c], fit.sums[10 + c] += w * multipliers[j][c];
-        for (int k = 0; k < 6; ++k) fit.sums[4 + k] += w * q[k];
-      });
+      bonds::set_sums(family, sites, multipliers, weight, fit);
       force += bonds::quadratic_own_force(states.quadratics[i], fit);
     }
   }

@@ -4,7 +4,7 @@
 
 #include "mechanics/formulation/cell_tangent.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
-#include "mechanics/kernels/over_family.hpp"
+#include "mechanics/kernels/bonds.hpp"
 
 namespace strut {
 

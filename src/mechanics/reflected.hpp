@@ -7,9 +7,7 @@
 namespace strut {
 
 inline void reflect(const Reflection& by, TensorRecord& record) {
-  Tensor tensor;
-  for (int c = 0; c < 3; ++c) tensor.col(c) = record.column[c].head<3>().matrix();
-  tensor = (by.turn * tensor * by.turn.transpose()).eval();
+  const Tensor tensor = by.turn * bonds::tensor_of(record) * by.turn.transpose();
   for (int c = 0; c < 3; ++c) record.column[c].head<3>() = tensor.col(c).array();
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
-#include "mechanics/formulation/flow.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/passes.hpp"
 
 namespace strut {
@@ -140,8 +140,7 @@ void serialize(Archive& archive, Body& body) {
     archive.points("block " + std::to_string(b) + " (" + block.name + ")", ids_of(body, block.points));
     block.fields.serialize(archive, indices_of(block));
   }
-  const auto owned = body.domain.cloud.ids.begin() + body.owned();
-  archive.points("all points", {body.domain.cloud.ids.begin(), owned});
+  archive.points("all points", owned_ids(body));
   compare_reference(archive, body);
   archive.field("position", 3, [&](std::size_t i, int c) -> double& { return body.domain.sites[i].current[c]; });
   body.fields.serialize(archive);

@@ -20,5 +20,8 @@ void serialize_sets(Archive& archive, const Body& body, const std::set<std::stri
 
 // The ids of owned points, over all ranks.
 std::vector<std::int64_t> ids_of(const Body& body, const std::vector<int>& points);
+inline std::vector<std::int64_t> owned_ids(const Body& body) {
+  return {body.domain.cloud.ids.begin(), body.domain.cloud.ids.begin() + body.owned()};
+}
 
 }  // namespace strut

@@ -5,19 +5,13 @@
 
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/bonds.hpp"
-#include "topology/planes_through.hpp"
+#include "topology/mirror_planes.hpp"
 
 namespace strut {
 
 Tensor shape_tensor(const Body& body, int i) {
   Tensor K = Tensor::Zero();
-  bonds::with_influence(body.influence, [&](auto weight) {
-    bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight,
-                [&](int, double w, const auto& xi, double) {
-                  const Vector bond(xi.c[0], xi.c[1], xi.c[2]);
-                  K += w * bond * bond.transpose();
-                });
-  });
+  over_family(body, i, [&](int, double w, const Vector& xi) { K += w * xi * xi.transpose(); });
   return K;
 }
 

@@ -1,20 +1,16 @@
 #include "mechanics/step_report.hpp"
 
-#include <sstream>
+#include "base/text.hpp"
 
 namespace strut {
 
+std::string place_text(const Vector& place) { return text_of("(", place[0], ", ", place[1], ", ", place[2], ") m"); }
+
 std::string locate(const Body& body, int i) {
   const PointCloud& cloud = body.domain.cloud;
-  const auto place = [](const Vector& x) {
-    std::ostringstream text;
-    text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
-    return text.str();
-  };
-  std::ostringstream text;
-  text << word(cloud.at) << " " << cloud.element_ids[i] << " of block " << cloud.block_names[cloud.blocks[i]]
-       << ", reference position " << place(body.domain.reference(i)) << " m, now at " << place(body.current(i)) << " m";
-  return text.str();
+  return text_of(word(cloud.at), " ", cloud.element_ids[i], " of block ", cloud.block_names[cloud.blocks[i]],
+                 ", reference position ", place_text(body.domain.reference(i)), ", now at ",
+                 place_text(body.current(i)));
 }
 
 namespace {
@@ -34,21 +30,14 @@ std::string why_no_stress(const MaterialBlock& block) {
 }  // namespace
 
 std::string describe(const Failure& failure, const Body& body) {
-  std::ostringstream text;
-  text << locate(body, failure.point) << ": ";
-  switch (failure.kind) {
-    case Failure::Kind::inverted:
-      text << "the deformation gradient has no positive determinant (the point is turned inside out). Likely causes: a "
-              "step above the stable one, too little stabilization, a load too sudden";
-      break;
-    case Failure::Kind::no_stress:
-      text << why_no_stress(body.block_of(failure.point));
-      break;
-    case Failure::Kind::not_finite:
-      text << "its strain is not a number (places are not, or two points met). Likely causes: a step above the stable "
-              "one, a load too sudden, an expression without a value";
-  }
-  return text.str();
+  const std::string why =
+      failure.kind == Failure::Kind::no_stress ? why_no_stress(body.block_of(failure.point))
+      : failure.kind == Failure::Kind::inverted
+          ? "the deformation gradient has no positive determinant (the point is turned inside out). Likely causes: a "
+            "step above the stable one, too little stabilization, a load too sudden"
+          : "its strain is not a number (places are not, or two points met). Likely causes: a step above the stable "
+            "one, a load too sudden, an expression without a value";
+  return locate(body, failure.point) + ": " + why;
 }
 
 }  // namespace strut

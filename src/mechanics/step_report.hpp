@@ -22,6 +22,8 @@ inline void take_worse(const std::optional<Failure>& other, std::optional<Failur
   if (other && (!worst || order(*other) < order(*worst))) worst = other;
 }
 
+std::string place_text(const Vector& place);  // "(x, y, z) m"
+
 // "element 17 of block foam, reference position (…) m, now at (…) m"
 std::string locate(const Body& body, int i);
 
@@ -29,8 +31,8 @@ std::string locate(const Body& body, int i);
 std::string describe(const Failure& failure, const Body& body);
 
 struct StepReport {
-  double frequency_bound =
-      0;  // 1/s, the largest of any point times its fraction of the step: the critical time step shrinks as it grows
+  // 1/s, the largest of any point times its fraction of the step: the critical time step shrinks as it grows.
+  double frequency_bound = 0;
   // ζ, the largest fraction of critical damping by viscosity: it multiplies the critical time step by √(1 + ζ²) − ζ.
   double damping = 0;
   std::optional<Failure> failure;  // the worst on this rank; its stress keeps the old value

@@ -1,9 +1,8 @@
-#include "mechanics/tangent_operator.hpp"
-
 #include "mechanics/force_sum.hpp"
 #include "mechanics/formulation/cell_tangent.hpp"
 #include "mechanics/formulation/quadratic_cell.hpp"
 #include "mechanics/formulation/tangent.hpp"
+#include "mechanics/mechanics.hpp"
 
 namespace strut {
 

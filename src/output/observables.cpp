@@ -9,10 +9,10 @@
 #include <variant>
 
 #include "base/errors.hpp"
-#include "fracture/fragments.hpp"
 #include "io/exodus/exodus.hpp"
 #include "materials/state_variables.hpp"
 #include "mechanics/steepness.hpp"
+#include "topology/pieces.hpp"
 
 namespace strut {
 
@@ -144,7 +144,7 @@ std::vector<Observable> stresses() {
 
 Observable fragment() {
   const auto fill = [](const Body& body, std::vector<double>& out) {
-    const std::vector<std::int64_t> ids = fragment_ids(body);
+    const std::vector<std::int64_t> ids = piece_ids(body.domain);
     out.assign(ids.begin(), ids.end());
   };
   return {"Fragment", 1, false, "number of the fragment: the smallest id of the points that bonds connect", fill, "1"};

@@ -1,4 +1,4 @@
-// Load balancing: when points are redistributed over the ranks, and to which ranks.
+// Load balancing: when points are redistributed over the ranks, to which ranks, and how.
 #pragma once
 
 #include <optional>
@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "base/archive.hpp"
+#include "base/errors.hpp"
 #include "deck/deck.hpp"
+#include "output/writers.hpp"
 #include "setup/scene.hpp"
 
 namespace strut {
@@ -33,5 +35,22 @@ class Balance {
   double accepted_ = 0;
   std::optional<std::vector<int>> restored_;
 };
+
+// The objects that depend on the partition.
+struct ExplicitRun {
+  const deck::Deck& deck;
+  std::optional<Scene>& scene;
+  std::optional<CentralDifference>& solver;
+  std::optional<OutputWriters>& writers;
+};
+
+// Thrown if a change fails halfway, when there is neither the old run nor the new one.
+struct LostState : Error {
+  using Error::Error;
+};
+
+// Collective; between advance_position() and advance_velocity(). Rebuilds all objects in place, with each owned point
+// on the rank given for it, and restores their state as from a checkpoint.
+void repartition(const ExplicitRun& run, const std::vector<int>& ranks);
 
 }  // namespace strut

@@ -13,7 +13,6 @@
 #include "checkpoint/checkpoint.hpp"
 #include "deck/deck.hpp"
 #include "output/variables.hpp"
-#include "run/first_step.hpp"
 #include "run/input.hpp"
 #include "run/report.hpp"
 #include "run/simulation.hpp"

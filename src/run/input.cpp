@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
+#include "base/text.hpp"
 #include "checkpoint/checkpoint.hpp"
 #include "io/check_sum.hpp"
 #include "io/file_lock.hpp"
@@ -72,12 +72,11 @@ void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, d
                           "', or 'false' to begin anew and replace it");
   }
   if (is_there || deck.start_from || deck.solver.initial_time == 0) return;
-  std::ostringstream text;
-  text << "'true' asks to go on from a checkpoint at t = " << deck.solver.initial_time
-       << " s (Solver > Initial Time), but there is none, " << file
-       << ": expected Start From > Checkpoint with that of the first part, or the deck of the first part with a later "
-          "Final Time and 'strut --continue'; or 'false' to begin then with bodies that are undeformed";
-  problems.add(key, text.str());
+  problems.add(key, text_of("'true' asks to go on from a checkpoint at t = ", deck.solver.initial_time,
+                            " s (Solver > Initial Time), but there is none, ", file,
+                            ": expected Start From > Checkpoint with that of the first part, or the deck of the first "
+                            "part with a later Final Time and 'strut --continue'; or 'false' to begin then with bodies "
+                            "that are undeformed"));
 }
 
 bool check_checkpoint(const deck::Deck& deck, bool begins_anew, const Communicator& communicator,

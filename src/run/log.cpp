@@ -42,13 +42,6 @@ class Log::Both : public std::streambuf {
   std::string line_;
 };
 
-namespace {
-
-// The first line, which shows the next run that the file may be replaced.
-std::string log_of_strut() { return log_mark + strut_version() + "\n"; }
-
-}  // namespace
-
 Log::Log(const std::filesystem::path& file, const Communicator& communicator)
     : terminal_out_(std::cout.rdbuf()), terminal_errors_(std::cerr.rdbuf()) {
   run_on_root(communicator, [&] {
@@ -60,9 +53,9 @@ Log::Log(const std::filesystem::path& file, const Communicator& communicator)
       throw Error(std::string("--log: ") + error.what());
     }
     errno = 0;
-    if (!(std::ofstream(file) << log_of_strut() << std::flush)) {
+    // The first line shows the next run that the file may be replaced.
+    if (!(std::ofstream(file) << log_mark << strut_version() << std::endl))
       throw Error("--log: '" + file.string() + "': cannot create it: " + std::strerror(errno));
-    }
   });
   file_.open(file, std::ios::app);
   out_ = std::make_unique<Both>(terminal_out_, file_);

@@ -67,11 +67,9 @@ std::string fastest_point(const Body& body) {
       if (here > largest) largest = here, fastest = i;
     }
   }
-  std::ostringstream text;
-  if (fastest >= 0) {
-    text << locate(body, fastest) << ", det F = " << body.points[fastest].deformation_gradient.determinant();
-  }
-  return of_largest(body, largest, text.str());
+  if (fastest < 0) return of_largest(body, largest, "");
+  const double J = body.points[fastest].deformation_gradient.determinant();
+  return of_largest(body, largest, text_of(locate(body, fastest), ", det F = ", J));
 }
 
 std::string at(double time) { return text_of("at t = ", time, " s "); }
@@ -169,29 +167,31 @@ void Monitor::check_step(const CentralDifference& solver) {
   if (first_step_ == 0) first_step_ = now;
   const contact::Contact& contact = solver.contact();
   if (!(now >= limits_.smallest_step * first_step_) && !(is_silent(step) && std::isfinite(now))) {
-    std::ostringstream text;
-    const std::string point = fastest_point(body_);
-    text << at(solver.time()) << "the critical time step has fallen to " << now << " s from " << first_step_
-         << " s (Watch > Smallest Step): the stiffest is " << point
-         << ". Likely causes: a point is being crushed flat or turned inside out, too little stabilization, or bodies "
-            "in contact that are far too stiff";
-    passed(step, point.empty() ? "" : text.str());
-    if (!std::isfinite(now)) raise_together(body_.domain.communicator, point.empty() ? "" : text.str());
+    std::string text = fastest_point(body_);
+    if (!text.empty()) {
+      text =
+          text_of(at(solver.time()), "the critical time step has fallen to ", now, " s from ", first_step_,
+                  " s (Watch > Smallest Step): the stiffest is ", text,
+                  ". Likely causes: a point is being crushed flat or turned inside out, too little stabilization, or "
+                  "bodies in contact that are far too stiff");
+    }
+    passed(step, text);
+    if (!std::isfinite(now)) raise_together(body_.domain.communicator, text);
   }
   if (contact.penetration() > limits_.penetration && !is_silent(penetration)) {
     const contact::DeepestPenetration deepest = contact.deepest();
-    std::ostringstream text;
+    std::string text;
     if (deepest.point >= 0 && deepest.penetration == contact.penetration()) {
-      text << at(solver.time()) << "contact is penetrated by " << 100 * deepest.penetration << " % of "
-           << (deepest.of_surfaces ? "a spacing" : "the distance at which points touch")
-           << " (Watch > Penetration): " << locate(body_, deepest.point) << ". Likely causes: "
-           << (deepest.of_surfaces
-                   ? "a Stiffness Factor that is too small for the speed, a Largest Overlap of 0 (no limit) or near 1"
-                   : "a Spring Constant that is too small for the speed (of Hertz an Effective Modulus), a Contact "
-                     "Radius below "
-                     "the spacing");
+      text = text_of(
+          at(solver.time()), "contact is penetrated by ", 100 * deepest.penetration, " % of ",
+          deepest.of_surfaces ? "a spacing" : "the distance at which points touch",
+          " (Watch > Penetration): ", locate(body_, deepest.point), ". Likely causes: ",
+          deepest.of_surfaces
+              ? "a Stiffness Factor that is too small for the speed, a Largest Overlap of 0 (no limit) or near 1"
+              : "a Spring Constant that is too small for the speed (of Hertz an Effective Modulus), a Contact Radius "
+                "below the spacing");
     }
-    passed(penetration, of_first(body_, !text.str().empty(), text.str()));
+    passed(penetration, of_first(body_, !text.empty(), text));
   }
 }
 
@@ -201,17 +201,17 @@ void Monitor::check_interpenetration(double time, const contact::Contact& contac
   next_interpenetration_ = time + pause();
   const auto found = contact::find_interpenetration(body_.domain, contact, limits_.interpenetration);
   if (!found) return;
-  std::ostringstream text;
+  std::string text;
   if (found->point >= 0) {
     const std::vector<std::string>& names = body_.domain.cloud.block_names;
-    text << at(time) << "blocks " << names[found->first] << " and " << names[found->second]
-         << " pass through each other: " << found->points << " points, " << 100 * found->part
-         << " % of the smaller one, are inside the other (Watch > Passing): " << locate(body_, found->point)
-         << ". Likely causes: contact too soft for the speed or the load"
-         << (contact.by_surfaces(found->first, found->second) ? " (Stiffness Factor, Largest Overlap)"
-                                                              : ", a Contact Radius far below the spacing");
+    text = text_of(at(time), "blocks ", names[found->first], " and ", names[found->second],
+                   " pass through each other: ", found->points, " points, ", 100 * found->part,
+                   " % of the smaller one, are inside the other (Watch > Passing): ", locate(body_, found->point),
+                   ". Likely causes: contact too soft for the speed or the load",
+                   contact.by_surfaces(found->first, found->second) ? " (Stiffness Factor, Largest Overlap)"
+                                                                    : ", a Contact Radius far below the spacing");
   }
-  passed(interpenetration, text.str());
+  passed(interpenetration, text);
 }
 
 void Monitor::check_undeclared(double time, const contact::Contact& contact) {
@@ -219,22 +219,19 @@ void Monitor::check_undeclared(double time, const contact::Contact& contact) {
   next_undeclared_ = time + costly * pause();
   const auto found = contact::find_undeclared(body_.domain, contact);
   if (!found) return;
-  std::ostringstream text;
-  if (found->point >= 0) {
-    const std::vector<std::string>& names = body_.domain.cloud.block_names;
-    text << at(time);
-    if (found->first == found->second) {
-      text << "block " << names[found->first]
-           << " passes through itself, for the deck declares no contact of it with itself: ";
-    } else {
-      text << "blocks " << names[found->first] << " and " << names[found->second]
-           << " pass through each other, for the deck declares no contact between them: ";
-    }
-    text << found->points << " points are inside of material that was elsewhere: " << locate(body_, found->point)
-         << ". Expected: Contact > Interactions > 'Self Contact' for bodies that fold, 'General Contact' for bodies "
-            "that meet";
-  }
-  warn_once(undeclared, text.str());
+  if (found->point < 0) return warn_once(undeclared, "");
+  const std::string &first = body_.domain.cloud.block_names[found->first],
+                    &second = body_.domain.cloud.block_names[found->second];
+  const std::string bodies =
+      found->first == found->second
+          ? "block " + first + " passes through itself, for the deck declares no contact of it with itself: "
+          : "blocks " + first + " and " + second +
+                " pass through each other, for the deck declares no contact between them: ";
+  warn_once(undeclared,
+            text_of(at(time), bodies, found->points,
+                    " points are inside of material that was elsewhere: ", locate(body_, found->point),
+                    ". Expected: Contact > Interactions > 'Self Contact' for bodies that fold, 'General Contact' for "
+                    "bodies that meet"));
 }
 
 void Monitor::check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools,
@@ -250,17 +247,16 @@ void Monitor::check_tools(double time, const Conditions& conditions, const std::
     if (warned_[crossing] || std::holds_alternative<HalfSpace>(tool.shape)) return;
     const auto found = find_crossing(tool, time, body_.domain, places);
     if (!found) return;
-    std::ostringstream text;
-    if (found->point >= 0) {
-      text << at(time) << "the tool '" << name
-           << "' stands between points that are bonded to each other: " << locate(body_, found->point)
-           << ". Tools stop points only, and one that is thinner than 1.5 spacings, or an edge of it, passes between "
-              "them"
-           << (steps == Steps::of_load ? ", as does one that goes too far in a load step; expected more load steps, "
-                                       : "; expected ")
-           << "a finer mesh or a thicker tool";
-    }
-    warn_once(crossing, text.str());
+    if (found->point < 0) return warn_once(crossing, "");
+    warn_once(crossing,
+              text_of(at(time), "the tool '", name,
+                      "' stands between points that are bonded to each other: ", locate(body_, found->point),
+                      ". Tools stop points only, and one that is thinner than 1.5 spacings, or an edge of it, passes "
+                      "between them",
+                      steps == Steps::of_load ? ", as does one that goes too far in a load step; expected more load "
+                                                "steps, "
+                                              : "; expected ",
+                      "a finer mesh or a thicker tool"));
   });
 }
 
@@ -283,7 +279,7 @@ void Monitor::check_meeting(double time, const Conditions& conditions, const std
   }
 }
 
-void Monitor::serialize(Archive& archive) {
+void Monitor::serialize(Archive& archive, std::size_t tools) {
   archive.number("first_step", first_step_);
   archive.number("ledgers", ledgers_);
   archive.number("next_look", next_interpenetration_);
@@ -295,9 +291,6 @@ void Monitor::serialize(Archive& archive) {
   archive.number("most_in_contact", most_in_contact_);
   archive.number("part_in_contact", part_in_contact_);
   for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), warned_[what]);
-}
-
-void Monitor::serialize_tools(Archive& archive, std::size_t tools) {
   overlapped_.resize(tools * tools, 0);
   for (std::size_t pair = 0; pair < overlapped_.size(); ++pair)
     archive.number("overlapped_" + std::to_string(pair), overlapped_[pair]);
@@ -380,15 +373,15 @@ void Monitor::check_failed(double time) {
   const double all = body_.domain.communicator.sum(static_cast<double>(own));
   if (failed_before_ < 0) failed_before_ = all;
   if (!(all > failed_before_)) return;
-  std::ostringstream text;
-  if (own > 0) {
-    text << at(time) << all - failed_before_ << " points have failed (Failure Strain), each all at once in a load step"
-         << (failed_before_ > 0 ? ", beside those that had before" : ": " + locate(body_, point))
-         << ". The work of that is not counted, and what nothing else holds is in equilibrium anywhere; expected "
-            "explicit "
-            "steps (Solver > Verlet) where material parts";
-  }
-  warn_once(failing, of_first(body_, own > 0, text.str()));
+  const std::string where = failed_before_ > 0 ? ", beside those that had before"
+                            : own > 0          ? ": " + locate(body_, point)
+                                               : "";
+  warn_once(failing,
+            of_first(body_, own > 0,
+                     text_of(at(time), all - failed_before_,
+                             " points have failed (Failure Strain), each all at once in a load step", where,
+                             ". The work of that is not counted, and what nothing else holds is in equilibrium "
+                             "anywhere; expected explicit steps (Solver > Verlet) where material parts")));
 }
 
 void Monitor::check_breaks(const Fracture& fracture, double time) {
@@ -454,15 +447,13 @@ void Monitor::check_soft_contact(const Ledger& ledger, const contact::Contact& c
     most_in_contact_ = stored, part_in_contact_ = stored / internal;
   if (!last || !(part_in_contact_ > worth_saying && most_in_contact_ > worth_a_warning * ledger.largest)) return;
   const double stiffer = part_in_contact_ / (1 - part_in_contact_) * (1 - worth_saying) / worth_saying;
-  std::ostringstream text;
-  text.precision(2);
-  text << "contact between surfaces held up to " << 100 * part_in_contact_
-       << " % of the energy that it and the bodies took up: it gives way by so much of the shortening, and elastic "
-          "bodies "
-          "that press on each other are too soft by it. For 5 % expected "
-       << (steps == Steps::of_load ? "" : "a finer mesh, or equilibria (Solver > QuasiStatic) with ")
-       << "a Stiffness Factor " << stiffer << " times as large (Contact > Models)";
-  warn(soft_contact, text.str());
+  warn(
+      soft_contact,
+      text_of(std::setprecision(2), "contact between surfaces held up to ", 100 * part_in_contact_,
+              " % of the energy that it and the bodies took up: it gives way by so much of the shortening, and elastic "
+              "bodies that press on each other are too soft by it. For 5 % expected ",
+              steps == Steps::of_load ? "" : "a finer mesh, or equilibria (Solver > QuasiStatic) with ",
+              "a Stiffness Factor ", stiffer, " times as large (Contact > Models)"));
 }
 
 // The largest stretch of a point with all its bonds is at most the norm of F.
@@ -474,16 +465,15 @@ void Monitor::check_stretch(double time) {
     if (here > largest) largest = here, point = i;
   }
   if (!(body_.domain.communicator.max(largest) > far_stretched)) return;
-  std::ostringstream text;
-  if (point >= 0) {
-    text << at(time) << "neighbors have been drawn " << largest
-         << " spacings apart: the shape between them is not resolved, and nothing tears where the deck has no Damage "
-            "Model: "
-         << locate(body_, point)
-         << ". Likely causes: metal near its melting temperature, a speed far above what the metal bears, a load that "
-            "pulls without an end";
-  }
-  warn_once(stretch, of_largest(body_, largest, text.str()));
+  const std::string where = point < 0 ? "" : locate(body_, point);
+  warn_once(stretch,
+            of_largest(body_, largest,
+                       text_of(at(time), "neighbors have been drawn ", largest,
+                               " spacings apart: the shape between them is not resolved, and nothing tears "
+                               "where the deck has no Damage Model: ",
+                               where,
+                               ". Likely causes: metal near its melting temperature, a speed far above what the "
+                               "metal bears, a load that pulls without an end")));
 }
 
 }  // namespace strut

@@ -47,8 +47,7 @@ class Monitor {
   void check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools,
                    Steps steps = Steps::of_time);
 
-  void serialize(Archive& archive);
-  void serialize_tools(Archive& archive, std::size_t tools);  // `tools`: how many the scene has
+  void serialize(Archive& archive, std::size_t tools);  // `tools`: how many the scene has
 
  private:
   enum What {

@@ -9,14 +9,16 @@
 #include <cstdlib>
 #include <iostream>
 #include <limits>
-#include <sstream>
+#include <variant>
 
 #include "base/errors.hpp"
 #include "base/parallel/threads.hpp"
+#include "base/text.hpp"
 #include "base/timing.hpp"
 #include "fracture/fracture.hpp"
 #include "fracture/fragments.hpp"
 #include "integrators/explicit/step_length.hpp"
+#include "materials/user_law.hpp"
 #include "mechanics/make_body.hpp"
 
 namespace strut {
@@ -119,17 +121,14 @@ std::string warning_of_cores(const Communicator& ranks) {
 }  // namespace
 
 std::string describe_scene(const Scene& scene, const Advice& advice) {
-  std::ostringstream text;
   const double neighbors = static_cast<double>(scene.bonds) / static_cast<double>(scene.points);
   const double memory = predicted_memory(scene);
   const int ranks = scene.body.domain.communicator.size();
-  text << formatted("%lld points, %lld bonds (%.1f a point), %s of memory, %d rank%s%s\n",
-                    static_cast<long long>(scene.points), static_cast<long long>(scene.bonds), neighbors,
-                    as_size(memory).c_str(), ranks, ranks == 1 ? "" : "s", threads_of_a_rank().c_str());
-  text << warning_of_cores(scene.body.domain.communicator);
-  text << describe_dropped(scene.dropped);
-  text << scene.pieces << " connected piece" << (scene.pieces == 1 ? "; " : "s; ") << advice.outline << advice.warnings;
-  return text.str();
+  return text_of(formatted("%lld points, %lld bonds (%.1f a point), %s of memory, %d rank%s%s\n",
+                           static_cast<long long>(scene.points), static_cast<long long>(scene.bonds), neighbors,
+                           as_size(memory).c_str(), ranks, ranks == 1 ? "" : "s", threads_of_a_rank().c_str()),
+                 warning_of_cores(scene.body.domain.communicator), describe_dropped(scene.dropped), scene.pieces,
+                 " connected piece", scene.pieces == 1 ? "; " : "s; ", advice.outline, advice.warnings);
 }
 
 double frame_bytes(const OutputVariables& variables, std::int64_t points) {
@@ -148,8 +147,6 @@ std::string memory_and_frame(const Scene& scene, const OutputVariables& variable
   return "most memory so far: rank 0 " + as_size(root) + (ranks.size() > 1 ? ", the others " + as_size(most) : "") +
          "; a frame takes " + as_size(frame_bytes(variables, scene.points)) + "\n";
 }
-
-std::string critical_time_step_line(double limit) { return formatted("critical time step %.4g s\n", limit); }
 
 std::string step_warning(const StepControl& control, double limit, double time) {
   if (!(control.fixed_dt > limit)) return "";
@@ -175,19 +172,34 @@ void check_step_at(double time, const StepControl& control, double limit) {
                 time, apart, step));
 }
 
+void check_libraries(const Body& body, const StepControl& control, double limit) {
+  const double whole = control.fixed_dt > 0 ? control.fixed_dt : control.safety_factor * limit;
+  if (!std::isfinite(whole)) return;
+  const std::vector<std::uint8_t>& levels = *body.time_levels;
+  std::string problem;
+  for (const MaterialBlock& block : body.blocks) {
+    const auto* law = std::get_if<materials::UserLaw>(&block.material.law);
+    if (!law) continue;
+    int level = 0;
+    for (const int i : block.points) level = std::max(level, levels.empty() ? 0 : static_cast<int>(levels[i]));
+    const std::string stiff = materials::too_stiff_in(*law, std::ldexp(whole, -level));
+    if (problem.empty() && !stiff.empty())
+      problem = "Materials > " + law->name + " > Library: '" + law->function.file + "' " + stiff;
+  }
+  raise_together(body.domain.communicator, problem);
+}
+
 namespace {
 
 std::string table_of_phases(const Scene& scene, double seconds) {
-  std::ostringstream text;
-  text << formatted("\n%-26s %10s %10s %7s\n", "phase", "mean s", "longest s", "part");
+  std::string text = formatted("\n%-26s %10s %10s %7s\n", "phase", "mean s", "longest s", "part");
   double sum = 0;
   for (const PhaseTime& p : phase_times(scene.body.domain.communicator)) {
-    text << formatted("%-26s %10.3f %10.3f %6.1f%%\n", p.name.c_str(), p.mean, p.longest, 100 * p.mean / seconds);
+    text += formatted("%-26s %10.3f %10.3f %6.1f%%\n", p.name.c_str(), p.mean, p.longest, 100 * p.mean / seconds);
     sum += p.mean;
   }
-  text << formatted("%-26s %10.3f %10s %6.1f%%\n", "other", seconds - sum, "", 100 * (seconds - sum) / seconds)
-       << formatted("%-26s %10.3f\n", "whole run", seconds);
-  return text.str();
+  return text + formatted("%-26s %10.3f %10s %6.1f%%\n", "other", seconds - sum, "", 100 * (seconds - sum) / seconds) +
+         formatted("%-26s %10.3f\n", "whole run", seconds);
 }
 
 // Collective. One value per rank: its minimum, mean and maximum over the ranks.
@@ -280,18 +292,17 @@ std::string energies(const Ledger& ledger) {
 
 std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds,
                            int before) {
-  std::ostringstream text;
-  text << table_of_phases(scene, seconds) << table_of_ranks(scene.body) << searches(solver.contact());
+  std::string text = table_of_phases(scene, seconds) + table_of_ranks(scene.body) + searches(solver.contact());
   const int steps = std::max(1, solver.steps() - before);  // zero if a completed run was resumed
   const double core_seconds = seconds * scene.body.domain.communicator.size() * threads();
-  text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", steps,
+  text += formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", steps,
                     static_cast<double>(scene.points) * steps / seconds,
                     1e9 * core_seconds / (static_cast<double>(scene.bonds) * steps));
   if (solver.most_substeps() > 1) {
-    text << formatted("the stiffest points were subcycled, up to %d times a step: %.2f updates a point and step\n",
+    text += formatted("the stiffest points were subcycled, up to %d times a step: %.2f updates a point and step\n",
                       solver.most_substeps(), solver.updates() / solver.steps());
   }
-  return text.str() + fragment_table(scene.body) + energies(ledger) + what_did_not_happen(scene, ledger, before);
+  return text + fragment_table(scene.body) + energies(ledger) + what_did_not_happen(scene, ledger, before);
 }
 
 std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds,

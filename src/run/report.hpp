@@ -43,14 +43,15 @@ double frame_bytes(const OutputVariables& variables, std::int64_t points);
 // of a frame.
 std::string memory_and_frame(const Scene& scene, const OutputVariables& variables);
 
-// One of the first lines of an explicit run; `limit`: critical time step, s.
-std::string critical_time_step_line(double limit);
-
 // Warns of a fixed step above the critical one, `limit` at `time` (s); "" if it is not.
 std::string step_warning(const StepControl& control, double limit, double time);
 
 // Throws Error if steps are shorter than the resolution of numbers at `time` (s): times would jump, or stand still.
 void check_step_at(double time, const StepControl& control, double limit);
+
+// Collective. Throws Error if a user library is stiffer, e.g. by viscosity, in the first steps of its points than its
+// elastic constants. `limit`: critical time step, s.
+void check_libraries(const Body& body, const StepControl& control, double limit);
 
 // Collective. Tables of time by phase and of work by rank, points·steps per second, ns per bond, the final ledger.
 // `before`: number of steps made by an earlier run.

@@ -21,20 +21,18 @@ void catch_signals(std::initializer_list<int> signals) {
   }
 }
 
-bool is_signalled() { return signalled != 0; }
-
 int caught_signal() { return signalled; }
 
 void forget_signals() { signalled = 0; }
 
 bool EarlyEnd::wanted() const {
   const auto passed = [this] { return std::chrono::duration<double>(Clock::now() - began_).count(); };
-  return asked_ || is_signalled() || (wall_time_ && passed() > *wall_time_);
+  return asked_ || signalled != 0 || (wall_time_ && passed() > *wall_time_);
 }
 
 std::string EarlyEnd::reason(const Communicator& communicator) const {
   if (asked_) return "ended as it was asked to";
-  return communicator.any(is_signalled()) ? "ended by a signal" : "ended by its Wall Time";
+  return communicator.any(signalled != 0) ? "ended by a signal" : "ended by its Wall Time";
 }
 
 void say(const Communicator& communicator, const std::string& text) {

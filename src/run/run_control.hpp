@@ -12,7 +12,6 @@ class Communicator;
 
 // From now on these signals (of csignal) end the run after the current step, or its first one.
 void catch_signals(std::initializer_list<int> signals);
-bool is_signalled();
 int caught_signal();    // its number; 0: none
 void forget_signals();  // for a process that runs several decks
 

@@ -1,6 +1,7 @@
 #include "run/simulation.hpp"
 
 #include <csignal>
+#include <iomanip>
 #include <iostream>
 
 #include "base/errors.hpp"
@@ -10,10 +11,8 @@
 #include "mechanics/serialize.hpp"
 #include "output/variables.hpp"
 #include "run/balance.hpp"
-#include "run/first_step.hpp"
 #include "run/input.hpp"
 #include "run/monitor.hpp"
-#include "run/repartition.hpp"
 #include "run/report.hpp"
 #include "run/run_control.hpp"
 #include "run/start_from.hpp"
@@ -90,8 +89,8 @@ struct Run::Parts {
   bool is_over() { return time() >= deck.solver.final_time; }
 
   void set_up(deck::Problems problems, const InMemory& in_memory, Start start);
-  void make_solver(Start start, StartState* state = nullptr);
-  void open(Start start);
+  void make_solver(bool continued, StartState* state = nullptr);
+  void open(bool continued);
   void begin();
   void arrive();
   void leave(const Pause& pause) { equilibria ? leave_equilibrium() : leave_step(pause); }
@@ -134,12 +133,12 @@ void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Star
       deck, output_variables_of(deck, scene->body, scene->contact));  // checks all names before a file is replaced
   history = in_memory.history;
   writers->history.keep_rows(history);
-  make_solver(start, state ? &*state : nullptr);
-  open(start);
+  make_solver(continued, state ? &*state : nullptr);
+  open(continued);
 }
 
 // `state`: the state of another run, which the body already has.
-void Run::Parts::make_solver(Start start, StartState* state) {
+void Run::Parts::make_solver(bool continued, StartState* state) {
   const deck::Solver& times = deck.solver;
   if (scene->quasi_static) {
     equilibria.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), *scene->quasi_static,
@@ -157,7 +156,7 @@ void Run::Parts::make_solver(Start start, StartState* state) {
   if (state && state->goes_on()) {
     make(CentralDifference::ToBeRestored());
     state->go_on(*steps);
-  } else if (start == Start::continued && checkpoint_exists(deck, communicator)) {
+  } else if (continued) {
     make(CentralDifference::ToBeRestored());  // by open(); the mesh may not fit the conditions of the initial time
   } else {
     make(times.initial_time);
@@ -165,24 +164,19 @@ void Run::Parts::make_solver(Start start, StartState* state) {
   }
 }
 
-void Run::Parts::open(Start start) {
+void Run::Parts::open(bool continued) {
   monitor.emplace(deck.watch, deck.solver.final_time - deck.solver.initial_time, scene->body, tell);
   checkpoint.emplace(deck, communicator, [this](Archive& archive) {
     with_solver([&](auto& solver) { solver.serialize(archive); });
     serialize_sets(archive, scene->body, names_of_probes(deck));
-    monitor->serialize(archive);
-    monitor->serialize_tools(archive, scene->tools.size());
+    monitor->serialize(archive, scene->tools.size());
     balance.serialize(archive, scene->body);
     writers->serialize(archive, number_of_steps(), time());
     libraries->serialize(archive);
     if (const std::string changed = libraries->changed(); !changed.empty())
       throw Error(changed + "; a run can go on with the same one only");
   });
-  if (start == Start::continued && checkpoint_exists(deck, communicator)) {
-    checkpoint->load();
-  } else {
-    checkpoint->remove();
-  }
+  continued ? checkpoint->load() : checkpoint->remove();
   writers->open(scene->body);
   before = number_of_steps();
 }
@@ -191,7 +185,7 @@ void Run::Parts::begin() {
   begun = true;
   if (equilibria) return;
   if (const auto ranks = balance.take_restored_ranks()) repartition({deck, scene, steps, writers}, *ranks);
-  say(communicator, critical_time_step_line(steps->critical_time_step()));
+  say(communicator, text_of(std::setprecision(4), "critical time step ", steps->critical_time_step(), " s\n"));
   check_step_at(steps->time(), scene->control, steps->critical_time_step());
   if (before == 0) check_libraries(scene->body, scene->control, steps->critical_time_step());
   progress.emplace(communicator, deck.solver.initial_time, time(), deck.solver.final_time);
@@ -341,9 +335,9 @@ void Run::Parts::hand_over() {
   writers->serialize(restored, number_of_steps(), time());
   equilibria.reset();
   balance = Balance(deck);
-  make_solver(Start::anew);
+  make_solver(false);
   steps->go_on_from(before);
-  open(Start::anew);
+  open(false);
   begun = last = ending = saving = false;
 }
 

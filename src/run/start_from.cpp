@@ -203,11 +203,10 @@ std::string StartState::restore(const deck::Deck& deck, Scene& scene) {
 std::string StartState::story(const deck::Deck& deck, const Scene& scene) const {
   const Energies stored = stored_energies(scene.body);
   const bool replaced = has_initial_velocity(deck) && !keeps_all_velocities();
-  std::ostringstream text, time;
-  time.precision(17);  // to go on, Initial Time must be the same
-  time << facts_.time;
-  text << "starts from " << facts_.file.string() << ", t = " << time.str() << " s there, after "
-       << (changes_.after_equilibria ? "equilibria" : "explicit steps") << ": "
+  std::ostringstream text;
+  text << "starts from " << facts_.file.string()
+       << ", t = " << text_of(std::setprecision(17), facts_.time)  // to go on, Initial Time must be the same
+       << " s there, after " << (changes_.after_equilibria ? "equilibria" : "explicit steps") << ": "
        << (goes_on_                               ? "goes on with its steps"
            : deck.solver.quasi_static.has_value() ? "without velocities"
            : keeps_velocities_                    ? "with its velocities"

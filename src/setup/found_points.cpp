@@ -5,7 +5,6 @@
 #include <span>
 
 #include "base/parallel/gather_scatter.hpp"
-#include "base/text.hpp"
 
 namespace strut {
 
@@ -64,7 +63,5 @@ std::map<IndexPair, FoundPoints> found_points_of_pairs(const Body& body,
   }
   return all;
 }
-
-std::string place_text(const Vector& place) { return text_of("(", place[0], ", ", place[1], ", ", place[2], ") m"); }
 
 }  // namespace strut

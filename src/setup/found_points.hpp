@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/body.hpp"
+#include "mechanics/step_report.hpp"
 
 namespace strut {
 
@@ -28,7 +28,5 @@ std::vector<IndexPair> on_all_ranks(std::vector<IndexPair> pairs, const Communic
 // Collective. The same for the points of each pair that occurs on any rank, without pairs that have no points.
 std::map<IndexPair, FoundPoints> found_points_of_pairs(const Body& body,
                                                        const std::map<IndexPair, std::vector<int>>& lists);
-
-std::string place_text(const Vector& place);  // "(x, y, z) m"
 
 }  // namespace strut

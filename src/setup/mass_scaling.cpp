@@ -9,8 +9,7 @@
 #include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "integrators/explicit/critical_time_step.hpp"
-#include "mechanics/frequency_bound.hpp"
-#include "mechanics/internal_force.hpp"
+#include "mechanics/mechanics.hpp"
 
 namespace strut {
 

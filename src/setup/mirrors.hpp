@@ -7,8 +7,8 @@
 #include "base/parallel/communicator.hpp"
 #include "contact/contact.hpp"
 #include "deck/deck.hpp"
+#include "topology/cloud.hpp"
 #include "topology/domain.hpp"
-#include "topology/faces_on_planes.hpp"
 
 namespace strut {
 

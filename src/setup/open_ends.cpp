@@ -5,7 +5,7 @@
 
 #include "setup/found_points.hpp"
 #include "topology/cell_edges.hpp"
-#include "topology/planes_through.hpp"
+#include "topology/mirror_planes.hpp"
 
 namespace strut {
 

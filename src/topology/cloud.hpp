@@ -1,7 +1,9 @@
 // The material points of one rank, as a reader delivers them and the partition distributes them.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -71,10 +73,35 @@ struct PointCloud {
 
 // The extent of a cell beyond its point in a direction of unit length, m. From the cell's moments: for a slab √3 times
 // the root of its second moment.
-double extent_of(const CellShape& shape, const Vector& direction);
+inline double extent_of(const CellShape& shape, const Vector& direction) {
+  const double moment = direction.dot(to_tensor(shape.moments) * direction);
+  return std::max(0.0, direction.dot(shape.offset) + std::sqrt(3 * moment));
+}
 
 // The same for the cell of point i, of this volume (m³), as far as a body reaches beyond its points. Without shapes in
 // the cloud, that of a cube; 0 for a node, with or without shapes, because nodes at a surface lie on it.
-double reach_of_cell(const PointCloud& cloud, double volume, int i, const Vector& direction);
+inline double reach_of_cell(const PointCloud& cloud, double volume, int i, const Vector& direction) {
+  if (cloud.at == PointsAt::nodes) return 0;
+  return cloud.shapes.empty() ? 0.5 * std::cbrt(volume) : extent_of(cloud.shapes[i], direction);
+}
+
+// A face of a cell on symmetry planes of the deck: surface, unless its body goes on behind one of these.
+struct FaceOnPlanes {
+  std::size_t point = 0;            // index in the cloud
+  std::uint32_t planes = 0;         // the bits (Mirror::bit) of those that it lies on
+  Vector area = Vector::Zero();     // as CellShape::surface, m²
+  Tensor moments = Tensor::Zero();  // as CellShape::surface_moments, m³
+};
+using FacesOnPlanes = std::vector<FaceOnPlanes>;
+
+// Adds a face to the surface of its point's cell; if it lies on planes, to those `apart` instead, or to none (null).
+inline void add_face(const FaceOnPlanes& face, PointCloud& cloud, FacesOnPlanes* apart = nullptr) {
+  if (face.planes == 0) {
+    cloud.shapes[face.point].surface += face.area;
+    cloud.shapes[face.point].surface_moments += face.moments;
+  } else if (apart) {
+    apart->push_back(face);
+  }
+}
 
 }  // namespace strut

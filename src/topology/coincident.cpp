@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include "base/parallel/gather_scatter.hpp"
+#include "base/text.hpp"
 
 namespace strut {
 
@@ -145,18 +145,14 @@ Found found_on_this_rank(const std::vector<Record>& points, const Cells& cells, 
 
 std::string describe(const PointCloud& cloud, const Pair& pair, std::int64_t count) {
   const auto name = [&](const Record& one) {
-    std::ostringstream text;
-    text << word(cloud.at) << " " << one.number << " of block '" << cloud.block_names[one.block] << "'";
-    return text.str();
+    return text_of(word(cloud.at), " ", one.number, " of block '", cloud.block_names[one.block], "'");
   };
   const auto& [a, b] = pair;
   const double apart = Vector(a.x[0] - b.x[0], a.x[1] - b.x[1], a.x[2] - b.x[2]).norm();
-  std::ostringstream text;
-  text << name(b) << " is where " << name(a) << " is, at (" << a.x[0] << ", " << a.x[1] << ", " << a.x[2] << ") m ("
-       << apart << " m apart; the edge of a cube of its volume is " << b.edge << " m)";
-  if (count > 1) text << ", and so on: " << count << " points are where others are";
-  text << "; expected each once" << (apart > 0 ? ", or elements that are less flat" : "");
-  return text.str();
+  const std::string others = count > 1 ? text_of(", and so on: ", count, " points are where others are") : "";
+  return text_of(name(b), " is where ", name(a), " is, at (", a.x[0], ", ", a.x[1], ", ", a.x[2], ") m (", apart,
+                 " m apart; the edge of a cube of its volume is ", b.edge, " m)", others, "; expected each once",
+                 apart > 0 ? ", or elements that are less flat" : "");
 }
 
 }  // namespace

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "base/errors.hpp"
 #include "base/numbers.hpp"
 #include "topology/bounding_box.hpp"
-#include "topology/neighbors/order.hpp"
+#include "topology/neighbors/stencils.hpp"
 #include "topology/partition.hpp"
 
 namespace strut {
@@ -48,6 +50,77 @@ std::vector<std::vector<Crack>> with_images(const std::vector<Crack>& cracks, co
     }
   }
   return all;
+}
+
+// The order of points and ghosts in memory, as indices in the pool: owned points without ghosts in their family, then
+// the other owned points, both by blocks and along the curve or their lattice; then the ghosts that are in a family, by
+// id (so that the ranks that own them send runs of ids).
+struct Order {
+  std::vector<int> points, ghosts;
+  std::size_t listed = 0;  // number of bonds of points with lists
+  int interior = 0;
+};
+
+// Points by blocks; then those on lattices, by their cells.
+std::vector<int> by_blocks(const Stencils& stencils, const std::vector<int>& blocks) {
+  std::vector<int> points(blocks.size());
+  std::iota(points.begin(), points.end(), 0);
+  const auto place = [&](int i) {
+    const int lattice = stencils.of[i];
+    return std::pair(lattice, lattice < 0 ? blocks[i] : stencils.lattices[lattice].cell(i));
+  };
+  std::stable_sort(points.begin(), points.end(), [&](int a, int b) { return place(a) < place(b); });
+  return points;
+}
+
+Order order_of(const Stencils& stencils, const Search& search, const CandidatePool& pool,
+               const std::vector<int>& blocks) {
+  Order order;
+  const int owned = static_cast<int>(blocks.size());
+  std::vector<char> needs_ghost(owned, 0), used(pool.ids.size(), 0);
+  Eigen::AlignedBox3d others;
+  for (std::size_t j = owned; j < pool.ids.size(); ++j) others.extend(pool.positions[j]);
+  for (int i = 0; i < owned; ++i) {
+    if (stencils.of[i] >= 0 && stencils.is_listed(i)) order.listed += stencils.lattices[stencils.of[i]].family_size(i);
+    if (stencils.of[i] >= 0 && !(others.squaredExteriorDistance(pool.positions[i]) <= search.reach * search.reach))
+      continue;
+    for_each_neighbor(stencils, search, pool, i, [&](int j) {
+      order.listed += stencils.of[i] < 0;
+      if (j >= owned) needs_ghost[i] = used[j] = 1;
+    });
+  }
+  order.points = by_blocks(stencils, blocks);
+  const auto boundary =
+      std::stable_partition(order.points.begin(), order.points.end(), [&](int i) { return !needs_ghost[i]; });
+  order.interior = static_cast<int>(boundary - order.points.begin());
+  for (int j = owned; j < static_cast<int>(pool.ids.size()); ++j) {
+    if (used[j]) order.ghosts.push_back(j);
+  }
+  std::sort(order.ghosts.begin(), order.ghosts.end(), [&](int a, int b) { return pool.ids[a] < pool.ids[b]; });
+  return order;
+}
+
+// The lists of the points that have them, in their order, with neighbors renumbered by local[], from a second pass over
+// the grid. A cluster consists of consecutive points of one block, and of the interior or the boundary.
+ClusterLists lists_of(const Stencils& stencils, const Search& search, const CandidatePool& pool,
+                      const std::vector<int>& blocks, const Order& order, const std::vector<int>& local) {
+  ClusterLists lists;
+  lists.reserve(order.listed);
+  ClusterLists::Builder builder(lists, pool.ids.size());
+  const auto family = [&](int i, const auto& visit) { for_each_neighbor(search, pool, i, visit); };
+  const std::span<const int> points(order.points);
+  for (const auto part : {points.first(order.interior), points.subspan(order.interior)}) {
+    for (auto begin = part.begin(); begin != part.end();) {
+      const int kind = blocks[*begin];
+      const bool is_listed = stencils.is_listed(*begin);
+      const auto end = std::find_if(begin, part.end(),
+                                    [&](int i) { return blocks[i] != kind || stencils.is_listed(i) != is_listed; });
+      if (is_listed) builder.add_all({begin, end}, family, [&](int j) { return pool.ids[j]; });
+      begin = end;
+    }
+  }
+  lists.renumber(local);
+  return lists;
 }
 
 // The points of a domain in their order: owned points and ghosts.
@@ -165,6 +238,8 @@ Vector stretch_at(const std::vector<Period>& periods, double t) {
   return stretch;
 }
 
+void Domain::stretch_sides(double t) { halo.set_stretch(stretch_at(periods, t)); }
+
 PointCloud whole_cloud(const Domain& domain) {
   PointCloud cloud = domain.cloud;
   for (int i = 0; i < domain.owned; ++i) {
@@ -178,6 +253,14 @@ double family_volume(const Domain& domain, int i) {
   double volume = 0;
   domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
   return volume;
+}
+
+std::size_t largest_whole_family(const Domain& domain) {
+  std::size_t most = 0;
+  for (int i = 0; i < domain.owned; ++i) {
+    most = std::max(most, domain.families.size(i) + domain.families.broken[i].size());
+  }
+  return static_cast<std::size_t>(domain.communicator.max(static_cast<double>(most)));
 }
 
 Images images_of(const Domain& domain, double reach) {

@@ -13,7 +13,6 @@
 #include "topology/neighbors/block_bonds.hpp"
 #include "topology/neighbors/cracks.hpp"
 #include "topology/neighbors/families.hpp"
-#include "topology/site.hpp"
 
 namespace strut {
 
@@ -55,6 +54,7 @@ struct Domain {
     for (const BlockHorizons& block : blocks) count = std::max(count, block.body + 1);
     return count;
   }
+  void stretch_sides(double t);  // periodic sides are then where they are at the time t, s
   std::int64_t id(int i) const { return i < owned ? cloud.ids[i] : ghost_ids[i - owned]; }
 };
 
@@ -80,6 +80,9 @@ const char* degeneracy(std::size_t neighbors, const Tensor& spread);
 
 // Σ V over the family of owned point i, m³.
 double family_volume(const Domain& domain, int i);
+
+// Collective. The largest number of bonds of a point over all ranks, broken bonds included.
+std::size_t largest_whole_family(const Domain& domain);
 
 // Σ V ξ⊗ξ over its family, m⁵.
 Tensor family_spread(const Domain& domain, int i);

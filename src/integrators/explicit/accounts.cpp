@@ -32,9 +32,7 @@ void EnergyAccount::begin_impulse() {
 Ledger EnergyAccount::ledger(const Body& body, const Conditions& conditions, const contact::Contact& contact,
                              const MidSteps& steps, double time, double dt) {
   raise_together(body.domain.communicator, conditions.first_not_finite());
-  Ledger now;
-  now.time = time;
-  now.dt = dt;
+  Ledger now{.time = time, .dt = dt};
   const Work done = done_ + impulse_.before;
   double sums[8] = {0, done.contact - contact.energy(), done.external, done.tools, 0, 0, 0, 0};
   for (int i = 0; i < body.owned(); ++i) {
@@ -48,18 +46,12 @@ Ledger EnergyAccount::ledger(const Body& body, const Conditions& conditions, con
   // is left.
   constexpr double round_off_of_squares = 1e-9;
   largest_ = std::max(largest_, round_off_of_squares * sums[7]);
-  const Energies stored = stored_energies(body);
+  now.take(stored_energies(body));
   now.kinetic = sums[0];
   now.tool_kinetic = kinetic_energy_of_tools(conditions);
   now.contact = sums[1];
   now.tools = sums[3];
   now.momentum = Vector(sums[4], sums[5], sums[6]);
-  now.elastic = stored.elastic;
-  now.dissipated = stored.dissipated;
-  now.stabilization = stored.stabilization;
-  now.fracture = stored.fracture;
-  now.heat = stored.heat;
-  now.expansion = stored.expansion;
   now.external = sums[2] + now.expansion;
   const double held = now.kinetic + now.tool_kinetic + now.elastic + now.dissipated + now.stabilization + now.fracture;
   now.balance(held, initial_ + now.tools + now.contact + now.external, largest_);

@@ -4,13 +4,11 @@
 #include <bit>
 #include <cmath>
 #include <span>
-#include <sstream>
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "base/timing.hpp"
-#include "integrators/explicit/pushed_points.hpp"
-#include "integrators/period_work.hpp"
 #include "mechanics/mirror_forces.hpp"
 #include "mechanics/rigid_motion.hpp"
 #include "mechanics/serialize.hpp"
@@ -48,7 +46,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
                                      double initial_time, std::optional<Fracture> fracture)
     : CentralDifference(body, std::move(conditions), std::move(contact), control, ToBeRestored(), std::move(fracture)) {
   time_ = initial_time;
-  stretch_sides(time_);
+  body_.domain.stretch_sides(time_);
   for (MaterialBlock& block : body_.blocks) block.rest_frequency_bound = largest_frequency_bound(body_, block);
   find_rigid_motion(body_);
   start({});
@@ -153,7 +151,7 @@ StepReport CentralDifference::substeps() {
 StepReport CentralDifference::substep(int level, double t) {
   const PointTimeSteps steps = point_steps();
   const std::vector<int>& moved = multi_stepping_.moved(level);
-  stretch_sides(t);
+  body_.domain.stretch_sides(t);
   const int count = static_cast<int>(moved.size());
   for_each_point(0, count, [&](int n) { drift(moved[n], steps); });
   const double impulse_time = std::ldexp(dt(), -level);
@@ -239,7 +237,7 @@ std::vector<Vector> CentralDifference::velocities_now() {
                             forces = *body_.force_density;
   if (dt() == 0) return before;
   const auto pass_tools = [this](Archive archive) {
-    archive.points("all points", owned_ids());
+    archive.points("all points", owned_ids(body_));
     serialize_tools(archive, conditions_, body_.owned());
   };
   Snapshot tools;
@@ -270,7 +268,7 @@ void CentralDifference::drift_to_next_time() {
   const PointTimeSteps steps = point_steps();
   for_each_point(0, body_.owned(), [&](int i) { drift(i, steps); });
   time_ = length_.next_time();
-  stretch_sides(time_);
+  body_.domain.stretch_sides(time_);
   length_.count_step();
   updates_ += multi_stepping_.updates_a_point();
   most_substeps_ = std::max(most_substeps_, 1 << multi_stepping_.level_count());
@@ -288,14 +286,13 @@ void CentralDifference::reassign_levels(StepReport& report, const std::vector<st
     report.frequency_bound =
         multi_stepping_.drop(body_, present);  // the run before had substeps, this deck allows none
   } else {
-    const std::vector<std::uint8_t> damped = damped_points(body_, conditions_, body_.velocity, time_, dt());
-    report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor, present, {pushed, damped});
+    const std::vector<std::uint8_t> damped = damped_points(body_, conditions_),
+                                    rubbed = rubbed_points(body_, conditions_, body_.velocity, time_, dt());
+    report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor, present, {pushed, damped, rubbed});
   }
   restrict_conditions();
   length_.take_levels(multi_stepping_);
 }
-
-void CentralDifference::stretch_sides(double t) { body_.domain.halo.set_stretch(stretch_at(body_.domain.periods, t)); }
 
 void CentralDifference::restrict_conditions() {
   conditions_of_level_.clear();
@@ -341,15 +338,10 @@ std::int64_t CentralDifference::new_breaks() {
 
 // Collective. Throws Error unless the run may continue with this report; else sets the warning.
 void CentralDifference::explain(const StepReport& report, const std::string& no_number) {
-  std::ostringstream text;
-  if (!no_number.empty()) {
-    text << no_number;
-  } else if (report.failure) {
-    text << "at t = " << time_ << " s, step " << steps() << " of " << dt()
-         << " s: " << describe(*report.failure, body_);
-  }
-  if (!went_on_) raise_together(body_.domain.communicator, text.str());
-  warning_ = text.str();
+  warning_ = no_number;
+  if (no_number.empty() && report.failure)
+    warning_ = text_of("at t = ", time_, " s, step ", steps(), " of ", dt(), " s: ", describe(*report.failure, body_));
+  if (!went_on_) raise_together(body_.domain.communicator, warning_);
 }
 
 // An inverted point still has a position, so a run may continue with it; other failures spread to the neighbors.
@@ -374,7 +366,7 @@ void CentralDifference::serialize(Archive& archive) {
 
 void CentralDifference::serialize_steps(Archive& archive) {
   archive.number("time", time_);
-  archive.points("all points", owned_ids());
+  archive.points("all points", owned_ids(body_));
   multi_stepping_.serialize(archive, body_);
   length_.serialize(archive, body_);
   serialize_tools(archive, conditions_, body_.owned());

@@ -86,15 +86,11 @@ class CentralDifference {
   void count_work(double impulse_time);
   void even_out();
   std::vector<Vector> velocities_now();
-  std::vector<std::int64_t> owned_ids() const {
-    return {body_.domain.cloud.ids.begin(), body_.domain.cloud.ids.begin() + body_.owned()};
-  }
   double energy_of_half_step(const std::vector<Vector>& inner) const;
   void drift(int i, const PointTimeSteps& steps);
   void drift_to_next_time();
   void reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed);
   void restrict_conditions();
-  void stretch_sides(double t);
   StepReport substeps();
   StepReport substep(int level, double t);
   void sum_all_forces(bool with_diagnostics);

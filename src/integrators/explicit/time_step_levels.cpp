@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "mechanics/formulation/formulation.hpp"
-#include "mechanics/frequency_bound.hpp"
+#include "mechanics/mechanics.hpp"
 #include "topology/parallel_for.hpp"
 
 namespace strut {
@@ -191,6 +191,28 @@ void even_out(const Body& body, std::vector<std::uint8_t> damped, FrequencyBound
   bounds.floor = body.domain.communicator.max(bounds.floor);
 }
 
+// All points whose stress moves a point that a tool rubs get one level. Else friction would take the velocity between
+// the impulses of points with longer steps, as a damper does (even_out). Bonds that may break keep level 0.
+void even_out_rubbed(Body& body, const std::vector<std::uint8_t>& rubbed, std::vector<std::uint8_t>& levels) {
+  const auto may_rise = [&body](int i) { return may_be_subcycled(body, body.domain.cloud.blocks[i]); };
+  for (double changed[] = {1}; changed[0] > 0; body.domain.communicator.max(changed)) {
+    changed[0] = 0;
+    std::vector<std::uint8_t> needed(body.owned(), 0);
+    for (int i = 0; i < body.owned(); ++i) {
+      if (rubbed.empty() || !rubbed[i]) continue;
+      needed[i] = levels[i];
+      body.domain.families.for_each(i, [&](int j) { needed[i] = std::max(needed[i], levels[j]); });
+    }
+    spread(body, 1, needed);
+    for (int i = 0; i < body.owned(); ++i) {
+      if (needed[i] <= levels[i] || !may_rise(i)) continue;
+      levels[i] = needed[i], changed[0] = 1;
+    }
+    levels.resize(body.owned());
+    with_ghosts(body, levels);
+  }
+}
+
 // The frequency bound of level 0 for which the marked points have level 1.
 double floor_of_pushed(const Body& body, const FrequencyBounds& bounds, double margin,
                        const std::vector<std::uint8_t>& marks) {
@@ -207,7 +229,8 @@ double work_of_step(const Body& body, const std::vector<std::uint8_t>& levels) {
 
 // `before`: the present levels, if any; a level falls only if the bound allows `slack`, or where something pushes.
 TimeStepLevels levels_for(Body& body, const FrequencyBounds& bounds, double bound, double margin,
-                          const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& pushed) {
+                          const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& pushed,
+                          const std::vector<std::uint8_t>& rubbed) {
   std::vector<std::uint8_t> levels(body.owned(), 0);
   over_points(body, [&](int i, bool may) {
     if (!may) return;
@@ -217,19 +240,24 @@ TimeStepLevels levels_for(Body& body, const FrequencyBounds& bounds, double boun
   });
   with_ghosts(body, levels);
   smooth_levels(body, levels);
+  if (body.domain.communicator.any(!rubbed.empty())) {
+    even_out_rubbed(body, rubbed, levels);
+    smooth_levels(body, levels);
+  }
   const double work = work_of_step(body, levels);
   return {std::move(levels), bound, work};
 }
 
 // The levels of least cost, including the levels of points near stiff ones.
-TimeStepLevels cheapest_levels(Body& body, const FrequencyBounds& bounds, double margin) {
+TimeStepLevels cheapest_levels(Body& body, const FrequencyBounds& bounds, double margin,
+                               const std::vector<std::uint8_t>& rubbed) {
   FrequencyHistogram histogram(bounds.largest, margin);
   for (int i = 0; i < body.owned(); ++i) histogram.add(bounds.values[i], cost_of_point(body, i));
   histogram.agree(body.domain.communicator);
   const double bound = std::max(histogram.best(), bounds.floor);
   TimeStepLevels none{{}, bounds.largest, work_of_step(body, {})};
   if (!(bound < bounds.largest)) return none;
-  TimeStepLevels some = levels_for(body, bounds, bound, margin, {}, {});
+  TimeStepLevels some = levels_for(body, bounds, bound, margin, {}, {}, rubbed);
   return some.work * bound < worth_while * none.work * none.bound ? some : none;
 }
 
@@ -250,9 +278,9 @@ TimeStepLevels choose_levels(Body& body, double safety_factor, const PresentStep
     spread(body, families_around_contact, around);
     bounds.floor = std::max(bounds.floor, floor_of_pushed(body, bounds, margin, around));
   }
-  TimeStepLevels best = cheapest_levels(body, bounds, margin);
+  TimeStepLevels best = cheapest_levels(body, bounds, margin, acted_on.rubbed);
   if (!(present.bound > 0 && bearable >= bounds.floor)) return best;
-  TimeStepLevels kept = levels_for(body, bounds, bearable, margin, before, around);
+  TimeStepLevels kept = levels_for(body, bounds, bearable, margin, before, around, acted_on.rubbed);
   const bool of_none = !has_levels && best.bound == bounds.largest && bearable >= bounds.largest;
   if (!of_none && best.work * best.bound < worth_a_change * kept.work * present.bound) return best;
   kept.anew = false;
@@ -265,6 +293,67 @@ std::vector<std::uint8_t> motion_levels_of(const Body& body, const std::vector<s
     body.domain.families.for_each(i, [&](int j) { motion_levels[i] = std::max(motion_levels[i], levels[j]); });
   });
   return motion_levels;
+}
+
+namespace {
+
+// Levels are chosen one step ahead: marks points that a tool with this velocity would reach, at theirs, within the next
+// `steps` steps.
+void mark_met(const RigidTool& tool, const Vector& velocity, const Body& body, std::span<const Vector> velocities,
+              double t, double dt, std::vector<std::uint8_t>& marks) {
+  // Margin for changes meanwhile, in steps and spacings; a gap of a round number must not depend on round-off.
+  constexpr double steps = 2, near = 0.05 + 1e-6;
+  const Vector offset = tool.offset(t);
+  for (const int i : tool.points) {
+    const Vector place = tool.nearest_image(body.domain, body.current(i) - offset);
+    const Surface at = tool.met_by(i, tool.shape, place);
+    const double closing = std::max(0.0, at.normal.dot(velocity - velocities[i]));
+    if (at.gap < steps * dt * closing + near * body.domain.cloud.spacings[i]) marks[i] = 1;
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& conditions, const contact::Contact& contact,
+                                        std::span<const Vector> velocities, double t, double dt) {
+  std::vector<std::uint8_t> marks(body.owned(), 0);
+  contact.mark_touching(marks);
+  bool any = contact.any();
+  for (const RigidTool& tool : tools_of(conditions)) {
+    if (!tool.free) continue;
+    any = true;
+    mark_met(tool, tool.free->velocity, body, velocities, t, dt, marks);
+  }
+  return any ? marks : std::vector<std::uint8_t>();
+}
+
+std::vector<std::uint8_t> rubbed_points(const Body& body, const Conditions& conditions,
+                                        std::span<const Vector> velocities, double t, double dt) {
+  std::vector<std::uint8_t> marks;
+  for (const RigidTool& tool : tools_of(conditions)) {
+    if (tool.friction == 0 || tool.free) continue;
+    marks.resize(body.owned(), 0);
+    const Vector velocity = dt > 0 ? Vector((tool.offset(t + dt) - tool.offset(t)) / dt) : Vector(Vector::Zero());
+    mark_met(tool, velocity, body, velocities, t, dt, marks);
+  }
+  return marks;
+}
+
+std::vector<std::uint8_t> damped_points(const Body& body, const Conditions& conditions) {
+  std::vector<std::uint8_t> marks;
+  conditions.visit([&](const NonReflectingEnd& end) {
+    marks.resize(body.owned(), 0);
+    for (const auto& drag : end.drags) marks[drag.point] = 1;
+  });
+  return marks;
+}
+
+bool any_in_both(const std::vector<std::uint8_t>& some, const std::vector<std::uint8_t>& others) {
+  if (others.empty()) return false;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    if (some[i] && others[i]) return true;
+  }
+  return false;
 }
 
 }  // namespace strut

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "conditions/conditions.hpp"
+#include "contact/contact.hpp"
 #include "mechanics/body.hpp"
 
 namespace strut {
@@ -18,7 +21,23 @@ struct PresentStep {
 struct ActedOn {
   const std::vector<std::uint8_t>& pushed;  // by contact, or a tool with a mass
   const std::vector<std::uint8_t>& damped;  // by a condition
+  const std::vector<std::uint8_t>& rubbed;  // by a tool with friction, and without a mass
 };
+
+// Marks owned points on which contact, or a tool with a mass, acts at time t (s) or is about to, once per step of dt
+// (s). Empty if the scene has neither.
+std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& conditions, const contact::Contact& contact,
+                                        std::span<const Vector> velocities, double t, double dt);
+
+// Marks owned points that a tool without a mass rubs at time t (s), or is about to. Empty if there is none with
+// friction.
+std::vector<std::uint8_t> rubbed_points(const Body& body, const Conditions& conditions,
+                                        std::span<const Vector> velocities, double t, double dt);
+
+// Marks points whose motion a condition damps. Empty if none does.
+std::vector<std::uint8_t> damped_points(const Body& body, const Conditions& conditions);
+
+bool any_in_both(const std::vector<std::uint8_t>& some, const std::vector<std::uint8_t>& others);  // empty: no marks
 
 // Contact acts once per step, on points of level 1 at most, and at least this many families from higher levels: one
 // impulse per step resonates with motion faster than most_turn allows (docs/theory.md, Multi-time-stepping).

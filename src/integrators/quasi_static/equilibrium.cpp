@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "base/timing.hpp"
-#include "integrators/period_work.hpp"
+#include "integrators/ledger.hpp"
 #include "integrators/quasi_static/turn.hpp"
-#include "mechanics/formulation/flow.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/mirror_forces.hpp"
 #include "mechanics/serialize.hpp"
 
@@ -41,14 +41,19 @@ std::vector<double> round_off_of_places(const Body& body, const SeparateParts& p
   return sums;
 }
 
+// N, of all owned points.
+Field forces_on_points(const Body& body) {
+  Field forces(body.owned());
+  for (int i = 0; i < body.owned(); ++i) forces[i] = body.domain.volume(i) * body.force_density[i];
+  return forces;
+}
+
 // Root of the sum of squares over the points of each piece, N: the forces that are left in a body at rest.
 std::vector<double> forces_at_rest(Body& body, const SeparateParts& parts) {
   const std::vector<HeatedPoints> heated = std::exchange(body.heated, {});  // at one temperature
   advance_by_any_step(body, 1, 0, false);  // any length: laws in rate form see nothing in a step of no length
   body.heated = heated;
-  Field forces(body.owned());
-  for (int i = 0; i < body.owned(); ++i) forces[i] = body.domain.volume(i) * body.force_density[i];
-  return parts.norms(forces, body.domain.communicator);
+  return parts.norms(forces_on_points(body), body.domain.communicator);
 }
 
 // For each body, points with the forces by which conditions hold them, from all that act on them. Bodies turn each by
@@ -107,7 +112,7 @@ void Equilibrium::begin(double t, double dt) {
   left_.clear();
   parts_.separate();
   begins_ = true;
-  stretch_sides(t + dt);
+  body_.domain.stretch_sides(t + dt);
   constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
   tools_.begin(body_, t, dt);
   if (fracture_) fracture_->start_criteria(body_);
@@ -131,8 +136,6 @@ std::vector<double> Equilibrium::forces_of_expansion() {
   return parts_.norms(forces, body_.domain.communicator);
 }
 
-void Equilibrium::stretch_sides(double t) { body_.domain.halo.set_stretch(stretch_at(body_.domain.periods, t)); }
-
 void Equilibrium::follow_sides() {
   const Vector more = stretch_at(body_.domain.periods, t_ + dt_) - stretch_at(body_.domain.periods, t_);
   for (int i = 0; i < body_.owned(); ++i) {
@@ -155,15 +158,14 @@ Imbalance Equilibrium::evaluate(bool with_diagnostics) {
   const StepReport report = advance(dt_, t_ + dt_, with_diagnostics);
   failure_ = report.failure;
   residual_ = body_.force_density;
-  for (int i = 0; i < body_.owned(); ++i) inner_[i] = body_.domain.volume(i) * residual_[i];
+  inner_ = forces_on_points(body_);
   take_side_forces();
   add_forces(conditions_, t_ + dt_, body_);
   for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volume(i) * (body_.force_density[i] - residual_[i]);
   add_contact();
   add_contact_through_sides();
   if (contact_.any() && parts_.several()) parts_.join(contact_, body_.domain.communicator);
-  forces_.resize(body_.owned());
-  for (int i = 0; i < body_.owned(); ++i) forces_[i] = body_.domain.volume(i) * body_.force_density[i];
+  forces_ = forces_on_points(body_);
   return measure(report.failure.has_value());
 }
 
@@ -207,9 +209,7 @@ void Equilibrium::begin_strained(double t) {
 void Equilibrium::hold_at(double t) {
   constraints_.emplace(held_directions(conditions_, body_, t, 0), body_);
   add_forces(conditions_, t, body_);
-  forces_.resize(body_.owned());
-  for (int i = 0; i < body_.owned(); ++i) forces_[i] = body_.domain.volume(i) * body_.force_density[i];
-  forces_before_ = forces_;
+  forces_before_ = forces_ = forces_on_points(body_);
 }
 
 std::vector<Vector> Equilibrium::step_displacement() const {
@@ -284,7 +284,7 @@ std::vector<Tensor> Equilibrium::contact_springs() {
 
 void Equilibrium::go_back() {
   committed_.restore(body_);
-  stretch_sides(t_);
+  body_.domain.stretch_sides(t_);
   advance(0, t_, true);
   add_forces(conditions_, t_, body_);
   add_contact();  // for its energy
@@ -302,7 +302,7 @@ void Equilibrium::serialize(Archive& archive) {
 }
 
 void Equilibrium::serialize_search(Archive& archive) {
-  archive.points("all points", {body_.domain.cloud.ids.begin(), body_.domain.cloud.ids.begin() + body_.owned()});
+  archive.points("all points", owned_ids(body_));
   const auto serialize_field = [&archive](const std::string& name, Field& field) {
     archive.field(name, 3, [&field](std::size_t i, int c) -> double& { return field[i][c]; });
   };
@@ -371,10 +371,9 @@ std::string Equilibrium::weakest_point(const Imbalance& last) const {
   const double most = ranks.max(overlap);
   if (most > 0 && is_balanced(last, tolerance_)) {  // the rounds of the multipliers did not end
     if (overlap != most) return "";
-    std::ostringstream line;
-    line << "forces are balanced, but a tool overlaps by " << overlap << " m with " << locate(body_, deepest)
-         << "; if a condition holds it there, expected a Node Set of the tool without it, else shorter load steps";
-    return line.str();
+    return text_of(
+        "forces are balanced, but a tool overlaps by ", overlap, " m with ", locate(body_, deepest),
+        "; if a condition holds it there, expected a Node Set of the tool without it, else shorter load steps");
   }
   double largest = 0;
   int worst = -1;
@@ -383,14 +382,9 @@ std::string Equilibrium::weakest_point(const Imbalance& last) const {
   }
   // A failure counts more than any force.
   const double rating = failure_ ? HUGE_VAL : largest;
-  const double highest = ranks.max(rating);
-  std::string text;
-  if (rating == highest && worst >= 0) {
-    std::ostringstream line;
-    line << "the largest force that is left, " << largest << " N, is at " << locate(body_, worst);
-    text = failure_ ? describe(*failure_, body_) : line.str();
-  }
-  return text;
+  if (rating != ranks.max(rating) || worst < 0) return "";
+  return failure_ ? describe(*failure_, body_)
+                  : text_of("the largest force that is left, ", largest, " N, is at ", locate(body_, worst));
 }
 
 }  // namespace strut

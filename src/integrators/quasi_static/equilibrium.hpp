@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -46,6 +47,10 @@ inline bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {
 // In place: arrays of Python are views of the values.
 inline void put_back(const Field& force_density, Body& body) {
   std::ranges::copy(force_density, body.force_density.begin());
+}
+
+inline void move_by(Body& body, double factor, const Field& step) {
+  for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() += factor * step[i].array();
 }
 
 class Equilibrium {
@@ -145,7 +150,6 @@ class Equilibrium {
   void begin_flow_of_cells();
   void serialize_of_pieces(Archive& archive, const std::string& name, std::vector<double>& of_pieces);
   void hold_at(double t);
-  void stretch_sides(double t);
 
   Body& body_;
   Conditions conditions_;
@@ -173,6 +177,22 @@ class Equilibrium {
   std::vector<Vector> positions_of_contact_;    // positions at the last evaluation of contact, m
   std::vector<PointTangent> tangents_;
   std::vector<Site> directions_;
+};
+
+// Callbacks of an equilibrium search.
+struct Observer {
+  std::function<void(const std::string&)> load_steps;  // called with a line for each load step, on rank 0
+  std::function<void(const std::string&)> iterations;  // called with a line for each iteration; may be empty
+  std::function<bool()> stop_requested;                // true if the run must end: on any rank, at any time
+};
+
+struct EquilibriumSearch {
+  bool converged = false;
+  int iterations = 0;
+  int evaluations = 0;  // of the forces, or of the tangent times a field
+  Imbalance left;
+  bool interrupted = false;
+  int rounds = 1;  // of the multipliers of tools
 };
 
 }  // namespace strut

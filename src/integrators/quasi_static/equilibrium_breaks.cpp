@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "integrators/quasi_static/equilibrium.hpp"
-#include "mechanics/formulation/flow.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/hindered_breaks.hpp"
 
 namespace strut {

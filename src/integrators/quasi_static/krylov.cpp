@@ -45,27 +45,22 @@ void copy(const Vectors& vectors, Field& field) {
 class ProductOperator : public Operator {
  public:
   ProductOperator(Krylov::Product product, RCP<const Map> map, std::size_t owned)
-
       : product_(std::move(product)), map_(std::move(map)), in_(owned), out_(owned) {}
   RCP<const Map> getDomainMap() const override { return map_; }
   RCP<const Map> getRangeMap() const override { return map_; }
   void apply(const Vectors& X, Vectors& Y, Teuchos::ETransp, double alpha, double beta) const override {
     copy(X, in_);
     product_(in_, out_);
-    if (beta == 0) return copy_scaled(alpha, Y);
+    if (beta == 0) {
+      for (Eigen::Vector3d& v : out_) v *= alpha;
+      return copy(out_, Y);
+    }
     Vectors product(map_, 1);
     copy(out_, product);
     Y.update(alpha, product, beta);
   }
 
  private:
-  void copy_scaled(double alpha, Vectors& Y) const {
-    if (alpha != 1) {
-      for (Eigen::Vector3d& v : out_) v *= alpha;
-    }
-    copy(out_, Y);
-  }
-
   Krylov::Product product_;
   RCP<const Map> map_;
   mutable Field in_, out_;

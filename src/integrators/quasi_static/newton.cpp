@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "base/timing.hpp"
-#include "integrators/quasi_static/line_search.hpp"
 #include "integrators/quasi_static/tangent_factor.hpp"
 
 namespace strut {
@@ -37,6 +36,67 @@ constexpr int most_of_multigrid = 200;
 // A multigrid hierarchy is renewed once a system takes this many times the products of the first one after it was made;
 // factors are renewed once a system takes this many times the products that new factors are worth.
 constexpr double wear = 1.5;
+
+// ---- Line search along a step, by the power of the residual forces --------------------------------------------------
+
+constexpr double enough = 0.5;      // fraction of the power at the start, of either sign, that ends the search
+constexpr int most_places = 12;     // evaluations at most; one costs a hundredth of the step
+constexpr double margin = 0.02;     // fraction of the remaining interval: least distance from its ends
+constexpr double of_failure = 1e3;  // if a point inverts, the power counts as minus this multiple of that at the start
+
+// The interval of the step in which the power changes its sign.
+struct Bracket {
+  double low, high, power_low, power_high;
+
+  // The zero of the secant; every third time the middle, because a kink keeps the secant on one side.
+  double next(bool middle) const {
+    const double secant = low + (high - low) * power_low / (power_low - power_high);
+    const double wanted = middle ? 0.5 * (low + high) : secant;
+    return std::clamp(wanted, low + margin * (high - low), high - margin * (high - low));
+  }
+  void cut(double at, double power) {
+    if (power > 0) {
+      low = at, power_low = power;
+    } else {
+      high = at, power_high = power;
+    }
+  }
+};
+
+// Collective. The power of the search: work of the present residual forces over the displacement `step`, J.
+double power_along(const Equilibrium& equilibrium, const Body& body, const Field& step) {
+  double sum = 0;
+  for (std::size_t i = 0; i < step.size(); ++i) sum += step[i].dot(equilibrium.residual()[i]);
+  return body.domain.communicator.sum(sum);
+}
+
+struct Stop {
+  double fraction = 1;  // of the step
+  Imbalance left;
+};
+
+// Collective. Call it at the end of the whole step, with the imbalance `left` there; `power`: at the start of the step,
+// positive. Stays if the power less `drag` · fraction is not negative there; else moves back, in at most 12
+// evaluations, to a fraction at which it is at most half of `power` in size. The norm of the forces is no measure
+// beyond a kink, where a point begins to touch or to flow: stiff springs dominate it.
+Stop search_downhill(Equilibrium& equilibrium, const Field& step, double power, double drag, const Imbalance& left) {
+  Body& body = equilibrium.body();
+  Stop stop{1, left};
+  const auto power_now = [&] {
+    return stop.left.failed ? -of_failure * power : power_along(equilibrium, body, step) - stop.fraction * drag;
+  };
+  double now = power_now();
+  if (now >= 0) return stop;
+  Bracket bracket{0, 1, power, now};
+  for (int n = 0; n < most_places && std::abs(now) > enough * power; ++n) {
+    const double to = bracket.next(n % 3 == 2 || stop.left.failed);
+    move_by(body, to - stop.fraction, step);
+    stop = {to, equilibrium.evaluate()};
+    now = power_now();
+    bracket.cut(to, now);
+  }
+  return stop;
+}
 
 }  // namespace
 
@@ -74,10 +134,6 @@ void Newton::warn_once(const std::string& trouble) {
   if (trouble.empty() || has_warned_) return;
   has_warned_ = true;
   if (observer_.load_steps) observer_.load_steps("WARNING: " + trouble);
-}
-
-bool Newton::damping_has_changed() const {
-  return damping_ > 5 * damping_when_new_ || damping_ < 0.2 * damping_when_new_;
 }
 
 void Newton::precondition(const BlockRows& matrix, const std::vector<Tensor>& extra) {
@@ -128,7 +184,8 @@ void Newton::serialize(Archive& archive) { archive.number("with_factors", wants_
 int Newton::correct(const Field& remaining, bool moves, double accuracy, Field& step) {
   equilibrium_.linearize();
   const bool changed = equilibrium_.contact_has_changed();
-  if (preconditioner_pending_ || (changed && !is_factorized_) || damping_has_changed()) renew_preconditioner();
+  const bool is_damped_anew = damping_ > 5 * damping_when_new_ || damping_ < 0.2 * damping_when_new_;
+  if (preconditioner_pending_ || (changed && !is_factorized_) || is_damped_anew) renew_preconditioner();
   const Constraints& held = equilibrium_.constraints();
   Field right = equilibrium_.residual();
   if (moves) {

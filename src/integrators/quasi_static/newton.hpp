@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "integrators/quasi_static/equilibrium.hpp"
 #include "integrators/quasi_static/krylov.hpp"
-#include "integrators/quasi_static/search.hpp"
 #include "integrators/quasi_static/tangent_factor.hpp"
 
 namespace strut {
@@ -28,7 +28,6 @@ class Newton {
   int correct(const Field& remaining, bool moves, double accuracy, Field& step);
   Imbalance advance(const Imbalance& now, const Field& step, bool moves);
   void warn_once(const std::string& trouble);
-  bool damping_has_changed() const;
   Krylov::Outcome with_another_preconditioner(const std::function<Krylov::Outcome()>& solve);
   void renew_preconditioner();
   void precondition(const BlockRows& matrix, const std::vector<Tensor>& extra);

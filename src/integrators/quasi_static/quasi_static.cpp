@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
+#include "mechanics/serialize.hpp"
 
 namespace strut {
 
@@ -60,8 +61,7 @@ double QuasiStatic::bytes(const Body& body, const QuasiStaticControl& control) {
 void QuasiStatic::extrapolate() {
   const double factor = last_dt_ > 0 ? dt_ / last_dt_ : growth + 1;
   if (factor > growth) return equilibrium_.follow_sides();
-  Body& body = equilibrium_.body();
-  for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() += factor * last_step_[i].array();
+  move_by(equilibrium_.body(), factor, last_step_);
 }
 
 EquilibriumSearch QuasiStatic::search_from_start(bool with_tangent) {
@@ -132,7 +132,7 @@ void QuasiStatic::serialize_search(Archive& archive) {
 void QuasiStatic::serialize_steps(Archive& archive) {
   newton_.serialize(archive);
   Body& body = equilibrium_.body();
-  archive.points("motion", {body.domain.cloud.ids.begin(), body.domain.cloud.ids.begin() + body.owned()});
+  archive.points("motion", owned_ids(body));
   last_step_.resize(body.owned(), Vector::Zero());
   archive.field("last_step", 3, [this](std::size_t i, int c) -> double& { return last_step_[i][c]; });
   archive.number("time", time_);
@@ -171,9 +171,10 @@ bool QuasiStatic::advance() {
     if (search.interrupted) return false;
     dt_ *= 0.5;
     if (dt_ < shortest * longest_) {
-      std::ostringstream text;
-      text << "no equilibrium after t = " << time_ << " s, by load steps down to " << 2 * dt_ << " s: ";
-      raise_together(equilibrium_.body().domain.communicator, where.empty() ? "" : text.str() + where);
+      raise_together(equilibrium_.body().domain.communicator,
+                     where.empty() ? ""
+                                   : text_of("no equilibrium after t = ", time_, " s, by load steps down to ", 2 * dt_,
+                                             " s: ", where));
     }
   }
 }
@@ -248,12 +249,12 @@ std::int64_t QuasiStatic::settle(EquilibriumSearch& search) {
 void QuasiStatic::raise_no_equilibrium(const Imbalance& left, std::int64_t broken) {
   const std::string where = equilibrium_.weakest_point(left);
   time_ += dt_;  // of the frame and the row that show where the search has ended
-  std::ostringstream text;
-  text << "no equilibrium at t = " << time_ << " s after "
-       << (broken > 0 ? std::to_string(broken) + " bonds broke" : "cells softened")
-       << ": the crack runs through, or a piece is held by nothing; expected a motion that holds both sides "
-          "of it, shorter load steps, or explicit steps (Solver > Verlet): ";
-  raise_together(equilibrium_.body().domain.communicator, where.empty() ? "" : text.str() + where);
+  const std::string text =
+      text_of("no equilibrium at t = ", time_, " s after ",
+              broken > 0 ? std::to_string(broken) + " bonds broke" : "cells softened",
+              ": the crack runs through, or a piece is held by nothing; expected a motion that holds both sides of it, "
+              "shorter load steps, or explicit steps (Solver > Verlet): ");
+  raise_together(equilibrium_.body().domain.communicator, where.empty() ? "" : text + where);
 }
 
 void QuasiStatic::report(const EquilibriumSearch& search, std::int64_t broken) const {
@@ -274,15 +275,12 @@ void QuasiStatic::report(const EquilibriumSearch& search, std::int64_t broken) c
 
 Ledger QuasiStatic::ledger() {
   const Body& body = equilibrium_.body();
-  const Energies stored = stored_energies(body);
   Ledger now{.time = time_, .dt = last_dt_};
-  now.elastic = stored.elastic, now.dissipated = stored.dissipated, now.stabilization = stored.stabilization;
-  now.heat = stored.heat;
-  now.expansion = stored.expansion;
+  now.take(stored_energies(body));
   now.external = external_ + now.expansion;
   now.tools = by_tools_;
   const double in_contact = body.domain.communicator.sum(contact().energy());
-  now.fracture = stored.fracture, now.jumps = in_jumps_;
+  now.jumps = in_jumps_;
   now.contact = by_friction_ - in_contact;
   // The energy that contact stores counts with the others: where every point is prescribed it is all there is.
   now.balance(now.elastic + now.dissipated + now.stabilization + now.fracture + now.jumps + in_contact,

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "integrators/explicit/critical_time_step.hpp"
-#include "integrators/quasi_static/search.hpp"
+#include "integrators/quasi_static/equilibrium.hpp"
 
 namespace strut {
 

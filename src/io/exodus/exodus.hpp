@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "topology/cloud.hpp"
-#include "topology/faces_on_planes.hpp"
 #include "topology/mirror.hpp"
 
 namespace strut {

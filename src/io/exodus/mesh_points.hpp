@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/exodus/mesh_slice.hpp"
-#include "topology/faces_on_planes.hpp"
+#include "topology/cloud.hpp"
 #include "topology/mirror.hpp"
 
 namespace strut::io {

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "topology/cloud.hpp"
-#include "topology/faces_on_planes.hpp"
 #include "topology/mirror.hpp"
 
 namespace strut {

@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "mechanics/kernels/over_family.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 
 namespace strut {

@@ -2,7 +2,6 @@
 
 #include "mechanics/formulation/cell_fit.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
-#include "mechanics/kernels/over_family.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 #include "mechanics/reflected.hpp"
 #include "topology/parallel_for.hpp"
@@ -123,7 +122,7 @@ void ConsistencyCorrection::set_missing() {
       const bonds::OfPoint family{{i}, body_.domain.families};
       const auto far =
           bonds::quadratic_far_force(family, body_.domain.sites.data(), fits_.multipliers(), states.data(), weight);
-      const Vector force = Vector(far.c[0], far.c[1], far.c[2]) + bonds::quadratic_own_force(states[i], fits_[i]);
+      const Vector force = bonds::to_vector(far) + bonds::quadratic_own_force(states[i], fits_[i]);
       bool all = true;  // next to a block of another formulation the surface is incomplete
       body_.domain.families.for_each(i, [&](int j) { all = all && states[j].failed > 0; });
       if (all) missing_[i] = shapes[i].surface + body_.domain.volume(i) * force;

@@ -2,8 +2,8 @@
 // first Piola–Kirchhoff stress at the four integration points of each cell.
 #include <array>
 
-#include "mechanics/formulation/flow.hpp"
 #include "mechanics/formulation/quadratic_cell.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/formulation/shared_volume.hpp"
 #include "mechanics/formulation/stress_pass.hpp"
 #include "mechanics/formulation/stress_update.hpp"

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "mechanics/formulation/cell_fit.hpp"
-#include "mechanics/kernels/over_family.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 #include "topology/parallel_for.hpp"
 
@@ -23,12 +22,8 @@ namespace {
 double penalty_in_flow(double thickness) { return 0.025 * std::clamp(1 + 2.2 * (2.75 - thickness), 1.0, 2.0); }
 
 void set_sums(const Body& body, int i, const Eigen::Array4d* multipliers, QuadraticFit& fit) {
-  std::fill(std::begin(fit.sums), std::end(fit.sums), 0.0);
-  over_family(body, i, [&](int j, double w, const Vector& xi) {
-    const std::array<double, 6> q = bonds::squares(bonds::Vector3<double>{{xi[0], xi[1], xi[2]}});
-    fit.sums[0] += w;
-    for (int c = 0; c < 3; ++c) fit.sums[1 + c] += w * xi[c], fit.sums[10 + c] += w * multipliers[j][c];
-    for (int k = 0; k < 6; ++k) fit.sums[4 + k] += w * q[k];
+  bonds::with_influence(body.influence, [&](auto weight) {
+    bonds::set_sums(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), multipliers, weight, fit);
   });
 }
 
@@ -171,6 +166,53 @@ Tensor QuadraticFits::gradient_at(const Body& body, int i, int q, const std::fun
 double QuadraticFits::bytes() const {
   const std::size_t numbers = penalties_in_flow_.size() * sizeof(double) + number_.size() * sizeof(int);
   return static_cast<double>(numbers + multipliers_.size() * sizeof(Eigen::Array4d)) + fits_.bytes();
+}
+
+namespace {
+
+bool has_flowed(const MaterialBlock& block, int k) {
+  const auto at_any_place = [&]<class L>(const L& law) {
+    bool any = false;
+    if constexpr (materials::tells_flow<L>) {
+      for (int q = 0; q < 4 && !any; ++q) any = law.has_flowed(block.state_of<L>(block.index(k, q)));
+    }
+    return any;
+  };
+  return std::visit(at_any_place, block.material.law);
+}
+
+}  // namespace
+
+bool begin_flow(Body& body, MaterialBlock& block, int k) {
+  const int i = block.points[k];
+  if (block.flowed[k] || !body.fits->carries_stress(i) || !has_flowed(block, k)) return false;
+  block.flowed[k] = 1;
+  body.fits->refit_in_flow(body, i);
+  for (int q = 0; q < 4; ++q) {
+    const std::size_t index = block.index(k, q);
+    MaterialPoint point = block.cells[index];
+    point.deformation_gradient = body.fits->gradient_at(body, i, q, [&](int j) { return body.domain.current(j); });
+    point.rotation = Rotation(polar_rotation(point.deformation_gradient));
+    block.cells->set(index, point);
+  }
+  return true;
+}
+
+bool begin_flow(Body& body) {
+  bool any = false;
+  for (MaterialBlock& block : body.blocks) {
+    for (int k = 0; k < std::ssize(block.flowed); ++k) any = begin_flow(body, block, k) || any;
+  }
+  return any;
+}
+
+void refit_flowed(Body& body) {
+  for (const MaterialBlock& block : body.blocks) {
+    for_each_point(0, static_cast<int>(block.flowed.size()), [&](int k) {
+      const int i = block.points[k];
+      if (block.flowed[k] && body.fits->carries_stress(i)) body.fits->refit_in_flow(body, i);
+    });
+  }
 }
 
 }  // namespace strut

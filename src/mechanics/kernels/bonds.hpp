@@ -146,6 +146,8 @@ Tensor3<T> zero_tensor() {
   return {{{v.c[0], v.c[1], v.c[2]}, {v.c[0], v.c[1], v.c[2]}, {v.c[0], v.c[1], v.c[2]}}};
 }
 
+inline Vector to_vector(const Vector3<double>& v) { return {v.c[0], v.c[1], v.c[2]}; }
+
 // u − v, with u of a far end and v of the points.
 template <class T>
 Vector3<T> apart(const Eigen::Array4d& far, const Vector3<T>& own) {
@@ -375,3 +377,16 @@ inline ScalarOf<Family> residual_energy(std::size_t kind, const Family& family, 
 }
 
 }  // namespace strut::bonds
+
+namespace strut {
+
+// Calls visit(j, ω V_j, ξ) for each bond of point i, where SIMD is not worthwhile.
+template <class Visit>
+void over_family(const Body& body, int i, const Visit& visit) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    bonds::over(bonds::OfPoint{{i}, body.domain.families}, body.domain.sites.data(), weight,
+                [&](int j, double w, const auto& xi, double) { visit(j, w, bonds::to_vector(xi)); });
+  });
+}
+
+}  // namespace strut

@@ -1,5 +1,5 @@
 // Sums that each point gathers from its neighbors: few numbers per neighbor, many per result.
-#include "mechanics/kernels/lattice_sweep.hpp"
+#include "mechanics/kernels/lattice_traversal.hpp"
 
 namespace strut {
 

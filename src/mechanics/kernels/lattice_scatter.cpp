@@ -1,5 +1,5 @@
 // Sums that each point hands over to its neighbors: many numbers per point, few per result.
-#include "mechanics/kernels/lattice_sweep.hpp"
+#include "mechanics/kernels/lattice_traversal.hpp"
 
 namespace strut {
 

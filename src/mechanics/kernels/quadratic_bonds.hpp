@@ -115,8 +115,20 @@ inline Vector3<T> quadratic_own_force(const T* numbers, const Sum& sum) {
 }
 
 inline Vector quadratic_own_force(const QuadraticState& state, const QuadraticFit& fit) {
-  const Vector3<double> force = quadratic_own_force(state.first, [&](int n) { return fit.sums[n]; });
-  return {force.c[0], force.c[1], force.c[2]};
+  return to_vector(quadratic_own_force(state.first, [&](int n) { return fit.sums[n]; }));
+}
+
+// Sets these sums for one point.
+template <class Family, class Weight>
+void set_sums(const Family& family, const Site* sites, const Eigen::Array4d* multipliers, Weight weight,
+              QuadraticFit& fit) {
+  std::fill(std::begin(fit.sums), std::end(fit.sums), 0.0);
+  over(family, sites, weight, [&](int j, double w, const Vector3<double>& xi, double) {
+    const std::array<double, 6> q = squares(xi);
+    fit.sums[0] += w;
+    for (int c = 0; c < 3; ++c) fit.sums[1 + c] += w * xi.c[c], fit.sums[10 + c] += w * multipliers[j][c];
+    for (int k = 0; k < 6; ++k) fit.sums[4 + k] += w * q[k];
+  });
 }
 
 }  // namespace strut::bonds

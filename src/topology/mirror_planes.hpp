@@ -1,6 +1,6 @@
-// The forces of symmetry planes on the bodies that they cut: the sum of the forces of images behind a plane on points
-// before it. Forces within a body and its images cancel. A force through periodic sides counts once for each period
-// between its ends.
+// Symmetry planes and the bodies that they cut: the points on a plane, and the force of a plane, which is the sum of
+// the forces of images behind it on points before it. Forces within a body and its images cancel. A force through
+// periodic sides counts once for each period between its ends.
 #pragma once
 
 #include <cmath>
@@ -10,6 +10,12 @@
 #include "topology/domain.hpp"
 
 namespace strut {
+
+// The planes of the body of an owned point that run through it.
+std::vector<Mirror> planes_through(const Domain& domain, int i);
+
+// Number of images at the position of an owned point, itself included: 2 on a symmetry plane, each with half of a cell.
+int coincident_images(const Domain& domain, int i);
 
 // Sums over forces of one kind on this rank's points, N.
 struct MirroredForces {
