@@ -346,7 +346,7 @@ class Errors(InFolder):
         at_rest = {name: {**condition, "Value": "0"} for name, condition in block.deck()["Boundary Conditions"].items()}
         run = strut.Run(block.deck(Solver={"Final Time": 1.0}, History=None, **{"Boundary Conditions": at_rest}), block.mesh())
         other = strut.Run(block.deck(), block.mesh())
-        busy = threading.Thread(target=run.advance, args=(1000,))
+        busy = threading.Thread(target=run.advance, args=(10000,))
         busy.start()
         for _ in range(1000):  # until it works
             try:
@@ -360,7 +360,7 @@ class Errors(InFolder):
                 action()
         self.assertTrue(busy.is_alive())  # else it has shown nothing
         busy.join()
-        self.assertEqual(run.steps, 1000)
+        self.assertEqual(run.steps, 10000)
         other.advance()
         self.assertTrue(other.is_over)
 
