@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import strut_tools
-from decks import integrals, value_at, value_in
+from decks import integrals, list_in, value_at, value_in
 from strut_tools import Parser, fail, nearest
 
 from . import extent
@@ -97,9 +97,12 @@ def is_equilibrium(deck):
 def rows_of_means(path, name, deck, times):
     """True for each row in which a force column has the mean since the previous row: all rows according to the first line
     of the history, or those of explicit steps that follow equilibria (Solver 2)."""
+    units = []
     with open(path, newline="") as file:
-        units, names = (re.split(r"units: *", file.readline().strip())[-1].split(","), file.readline().strip().split(","))
-    if len(units) == len(names) and units[names.index(name)].strip() == "N (mean)":
+        while (line := file.readline().strip()).startswith("#"):
+            units = re.split(r"units: *", line)[-1].split(",")
+    names = line.split(",")
+    if len(units) == len(names) and name in names and units[names.index(name)].strip() == "N (mean)":
         return np.full(len(times), True)
     steps_follow = is_equilibrium(deck) and deck.section("Solver 2") is not None and not name.startswith(INSTANT)
     end = value_at(deck.get("Solver", "Final Time", default=""), 0) if steps_follow else None
@@ -136,9 +139,11 @@ def motion_of(deck, axis, times):
         moves[name] = np.array(way)
         if kind == "Prescribed Displacement":
             moves[name] = moves[name] - taken_off(deck, value)
-        elif kind == "Prescribed Velocity" and goes_on:
-            begins[name] = " since the start of this run (the strain before it, by Start From, is not counted)"
-        elif kind.startswith("Rigid ") and not goes_on:
+        elif kind == "Prescribed Velocity":
+            begins[name] = " since the start of this run (the strain before it, by Start From, is not counted)" if goes_on else ""
+        elif goes_on:
+            begins[name] = " as its Travel has it (a strain before this run, by Start From, is not counted, a gap is)"
+        else:
             moves[name], begins[name] = from_the_touch(moves[name], apart_at_first(deck, keys, axis, moves[name][0]))
     return moves, begins, unknown
 
@@ -147,9 +152,22 @@ def initial_time(deck):
     return strut_tools.number(deck.get("Solver", "Initial Time")) or 0
 
 
+def about_history(deck, path, times):
+    """Words on a history that may be of another run, or lacks the beginning of its own; None where it is whole."""
+    return "; ".join(words for words in deck and (older(deck, path), late_begin(deck, times)) or () if words)
+
+
+def older(deck, path):
+    """Words on a history that is older than what its run reads; None if it is not."""
+    read = [deck.path, deck.file("Discretization", "Input Mesh File")]
+    newer = [name for name in read if name and os.path.isfile(name) and os.path.getmtime(name) > os.path.getmtime(path)]
+    return newer and (f"WARNING: older than {' and '.join(newer)}: if changed since the run, motion and size here are not those of "
+                      "its forces: run it again")
+
+
 def late_begin(deck, times):
     """Words on a history that lacks the beginning of its run; None if it has it."""
-    if deck is None or deck.section("Start From") is not None or times[0] - initial_time(deck) <= 1e-9 * (times[-1] - times[0]):
+    if deck.section("Start From") is not None or times[0] - initial_time(deck) <= 1e-9 * (times[-1] - times[0]):
         return None
     return f"begins at t = {times[0]:g} s, later than the run, at {initial_time(deck):g} s: the energy that the sample absorbed between the two is left out"
 
@@ -205,7 +223,7 @@ def flat_tool(keys, axis):
 
 def numbers_in(keys, name):
     """The three numbers of a key; None if it has others."""
-    row = [strut_tools.number(word) for word in (value_in(keys, name) or "").split()]
+    row = [strut_tools.number(word) for word in list_in(keys, name)]
     return None if len(row) != 3 or None in row else row
 
 
@@ -264,11 +282,11 @@ def unstrained(deck, block, axis, height, how):
     height over the strained part of it."""
     if not how.startswith(("Mean_Displacement", "the motion")) or (deck and deck.get("Discretization", "Points") == "Nodes"):
         return None
-    edge = extent.edge_of(deck and deck.file("Discretization", "Input Mesh File"), block, axis)
+    edges = extent.edges_of(deck and deck.file("Discretization", "Input Mesh File"), block)
     planes = [keys for keys in deck.sections("Boundary Conditions").values() if value_in(keys, "Type") == "Symmetry Plane"] if deck else []
     is_mirrored = " less " not in how and any(is_across(numbers_in(plane, "Normal"), axis) for plane in planes)
     ends, where = (1, "at the end without a symmetry plane") if is_mirrored else (2, "at each end")
-    part = f", {50 * ends * edge / height:.3g} % of the height in all" if edge else ""
+    part = f", {50 * ends * edges[axis] / height:.3g} % of the height in all" if edges is not None else ""
     return f"half a spacing {where}{part}: the outer points are the middles of cells, so that strain is too small by that, and stress too large"
 
 
