@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import strut_tools
-from decks import integrals, list_in, value_at, value_in
+from decks import Deck, in_xml, integrals, list_in, value_at, value_in
 from strut_tools import Parser, fail, nearest
 
 from . import extent
@@ -152,17 +152,33 @@ def initial_time(deck):
     return strut_tools.number(deck.get("Solver", "Initial Time")) or 0
 
 
-def about_history(deck, path, times):
-    """Words on a history that may be of another run, or lacks the beginning of its own; None where it is whole."""
-    return "; ".join(words for words in deck and (older(deck, path), late_begin(deck, times)) or () if words)
+def about_history(deck, path, times, results):
+    """Words on a history that may be of another deck, or lacks the beginning of its run; None where it is whole."""
+    return "; ".join(words for words in deck and (of_another(deck, path, results), late_begin(deck, times)) or () if words)
 
 
-def older(deck, path):
-    """Words on a history that is older than what its run reads; None if it is not."""
-    read = [deck.path, deck.file("Discretization", "Input Mesh File")]
-    newer = [name for name in read if name and os.path.isfile(name) and os.path.getmtime(name) > os.path.getmtime(path)]
-    return newer and (f"WARNING: older than {' and '.join(newer)}: if changed since the run, motion and size here are not those of "
-                      "its forces: run it again")
+def of_another(deck, path, results):
+    """Words on a history whose run read another deck, by its checkpoint, or is older than deck or mesh; None of others."""
+    ran, mesh = deck_that_ran(deck, path, results), deck.file("Discretization", "Input Mesh File")
+    newer = [name for name in ([] if ran else [deck.path]) + [mesh] if name and os.path.isfile(name) and os.path.getmtime(name) > os.path.getmtime(path)]
+    changed = ran and ", ".join(deck.changed_from(ran, ("Output", "History", "Restart", "Watch")))
+    why = f"{deck.path} has been changed since the run, in {changed}" if changed else newer and f"older than {' and '.join(newer)}, if changed since"
+    return why and f"WARNING: {why}: motion and size here may not be those of its forces; run it again"
+
+
+def deck_that_ran(deck, path, results):
+    """The deck of the run, by the checkpoint that it left with its history; None without one."""
+    import netCDF4
+
+    name = deck.get("Restart", "Filename") or os.path.splitext(os.path.basename(deck.path))[0] + ".restart"
+    checkpoint = os.path.join(results, name)
+    if not os.path.isfile(checkpoint) or os.path.getmtime(checkpoint) < os.path.getmtime(path) - 1:  # s; of a run before
+        return None
+    try:
+        with netCDF4.Dataset(checkpoint) as file:
+            return Deck.of(checkpoint, in_xml(checkpoint, file.deck))
+    except (OSError, AttributeError):
+        return None
 
 
 def late_begin(deck, times):

@@ -75,6 +75,12 @@ class Deck:
         recipe = mesh and os.path.splitext(mesh)[0] + ".recipe"
         return Recipe(recipe) if recipe and os.path.isfile(recipe) else None
 
+    def changed_from(self, other, but):
+        """The sections, besides some, in which keys differ from those of another deck; tables apart, which a run fills in."""
+        ours, others = keys_in(self.root), keys_in(other.root)
+        differ = [place for place in {**ours, **others} if ours.get(place) != others.get(place) and "table(" not in ours.get(place, "")]
+        return list(dict.fromkeys(place[0] for place in differ if place[0] not in but))
+
     @classmethod
     def of(cls, path, text):
         """A deck from a text, as if it stood there."""
@@ -123,6 +129,14 @@ def section(name, content):
             found.append(section(key, value))
         else:
             tree.SubElement(found, "Parameter", name=key, type="string", value=str(value))
+    return found
+
+
+def keys_in(element, *place):
+    """{(section, …, key): value}"""
+    found = {(*place, e.get("name")): e.get("value", "") for e in element.findall("Parameter")}
+    for e in element.findall("ParameterList"):
+        found |= keys_in(e, *place, e.get("name")) or {(*place, e.get("name")): ""}
     return found
 
 

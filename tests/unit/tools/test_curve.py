@@ -398,12 +398,24 @@ class Runs(InFolder):
             self.assertEqual("by Start From, is not counted" in self.curve("block.xml").stdout, bool(begin))
             np.testing.assert_allclose([float(row[1]) for row in self.table("block-curve.csv")[1:]], expected, atol=1e-9)
 
-    def test_a_history_that_is_older_than_the_deck_is_told(self):
+    def test_a_history_of_another_deck_is_told_by_its_checkpoint_else_by_its_age(self):
         self.history({"Time": STRAIN, "Reaction_Z(top)": stress_at(STRAIN)})
         history = (self.folder / "block.csv").stat().st_mtime
-        for later in (-1, 1):
+
+        def told(later, deck=DECK, checkpoint=None):
+            (self.folder / "block.xml").write_text(deck)
             os.utime(self.folder / "block.xml", (history, history + later))
-            self.assertEqual("WARNING: older than block.xml: if changed since" in self.curve("block.xml").stdout, later > 0)
+            if checkpoint is not None:
+                netCDF4.Dataset(self.folder / "block.restart", "w").deck = DECK
+                os.utime(self.folder / "block.restart", (history, history + checkpoint))
+            return "".join(line for line in self.curve("block.xml").stdout.splitlines() if line.startswith("history"))
+        self.assertEqual(told(-1), "")
+        self.assertIn("WARNING: older than block.xml, if changed since: ", told(1))
+        self.assertEqual(told(1, checkpoint=0), "")
+        for later in (-1, 1):
+            self.assertIn("WARNING: block.xml has been changed since the run, in Boundary Conditions: ", told(later, DECK.replace("-1e-2", "-2e-2")))
+        self.assertEqual(told(-1, DECK.replace('name="History">', 'name="History"><Parameter name="Interval" type="double" value="1"/>')), "")
+        self.assertIn("older than", told(1, checkpoint=-10))  # the checkpoint is of a run before
 
     def test_a_table_of_ones_own_needs_no_comment(self):
         for comments in ("", "# mine\n", "# mine\n# of today\n"):
