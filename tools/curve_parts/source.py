@@ -160,7 +160,8 @@ def about_history(deck, path, times, results):
 def of_another(deck, path, results):
     """Words on a history whose run read another deck, by its checkpoint, or is older than deck or mesh; None of others."""
     ran, mesh = deck_that_ran(deck, path, results), deck.file("Discretization", "Input Mesh File")
-    newer = [name for name in ([] if ran else [deck.path]) + [mesh] if name and os.path.isfile(name) and os.path.getmtime(name) > os.path.getmtime(path)]
+    read = [name for name in (None if ran else deck.path, mesh) if name and os.path.isfile(name)]
+    newer = [name for name in read if os.path.getmtime(name) > os.path.getmtime(path)]
     changed = ran and ", ".join(deck.changed_from(ran, ("Output", "History", "Restart", "Watch")))
     why = f"{deck.path} has been changed since the run, in {changed}" if changed else newer and f"older than {' and '.join(newer)}, if changed since"
     return why and f"WARNING: {why}: motion and size here may not be those of its forces; run it again"
@@ -177,7 +178,7 @@ def deck_that_ran(deck, path, results):
     try:
         with netCDF4.Dataset(checkpoint) as file:
             return Deck.of(checkpoint, in_xml(checkpoint, file.deck))
-    except (OSError, AttributeError):
+    except (OSError, AttributeError, SyntaxError):  # damaged, or of an older program
         return None
 
 
