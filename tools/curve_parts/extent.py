@@ -5,6 +5,7 @@ from collections import namedtuple
 
 import numpy as np
 from exodus import names_in, opened
+from scipy.spatial import ConvexHull
 
 SOLIDS = ("HEX", "TET")
 NUMBERS = ["centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "moment_zz"]
@@ -42,10 +43,17 @@ def elements_in(file, number, nodes):
     return Elements(low, high, held[:, :3], np.sqrt(3 * held[:, 3:]), True)
 
 
-def edge_of(path, block, axis):
-    """The median edge (m) of the elements of a block, or of all, along an axis; None if the mesh does not contain it."""
+def edges_of(path, block):
+    """The median edges (m) of the elements of a block, or of all, along the axes; None if the mesh does not contain it."""
     found = elements_of(path, block)
-    return found and np.median(np.concatenate([one.high - one.low for one in found])[:, axis])
+    return found and np.median(np.concatenate([one.high - one.low for one in found]), axis=0)
+
+
+def outline_of(path, block, axis):
+    """The area (m²) within the convex outline of the elements, seen along an axis; None if the mesh does not contain them."""
+    found, (a, b) = elements_of(path, block), [c for c in range(3) if c != axis]
+    corners = [np.stack([u[:, a], v[:, b]], axis=1) for one in found or () for u in (one.low, one.high) for v in (one.low, one.high)]
+    return float(ConvexHull(np.concatenate(corners)).volume) if corners else None
 
 
 def box_in(path, block, whole=False):

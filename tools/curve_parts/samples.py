@@ -10,6 +10,10 @@ from . import extent
 from .source import FORCES
 
 
+FULL = 0.9   # of a box: what an outline fills at least that is none of a round sample, π/4
+ALIKE = 0.1  # of a size: how far the struts of a lattice may end within the box of its recipe, besides a cell
+
+
 @dataclass
 class Sample:
     area: float      # m²
@@ -21,25 +25,38 @@ class Sample:
 def sample_of(deck, axis, block, words):
     found, across = {}, [a for a in range(3) if a != axis]
     size = size_of(deck, block, words, found) if words.area is None or words.height is None else None
-    area = words.area if words.area is not None else size[across[0]] * size[across[1]]
+    area = words.area if words.area is not None else area_of(deck, axis, block, size[across[0]] * size[across[1]], found)
     height = words.height if words.height is not None else size[axis]
     return Sample(area, height, density_of(deck, block, area * height, words, found), found)
 
 
-def size_of(deck, block, words, found):
+def area_of(deck, axis, block, box, found):
+    """The section of a cylinder along the axis, by its recipe, else that of the box around the sample (`box`, m²)."""
     recipe = deck and deck.recipe()
-    body = recipe and recipe.body(block)
-    if body and body.get("shape") in ("foam", "box", "lattice"):
+    if recipe and found["size"] == f"from {recipe.path}":
+        return 0.25 * np.pi * box if axis == 2 and recipe.body(block)["shape"] == "cylinder" else box
+    outline = extent.outline_of(deck and deck.file("Discretization", "Input Mesh File"), block, axis)
+    if outline is not None and outline < FULL * box:
+        found["area"] = (f"as that of the box; WARNING: the outline of the elements across the axis has {outline:.6g} m2, "
+                         f"{100 * outline / box:.3g} % of it: expected --area, where the sample is no box")
+    return box
+
+
+def size_of(deck, block, words, found):
+    recipe, mesh = deck and deck.recipe(), deck and deck.file("Discretization", "Input Mesh File")
+    body, size = recipe and recipe.body(block), extent.size_of(mesh, block)
+    wanted = box_of(body) if body and body.get("shape") in ("foam", "box", "lattice", "cylinder") else None
+    if wanted and (size is None or np.allclose(size, wanted, rtol=ALIKE, atol=extent.edges_of(mesh, block).max())):
         found["size"] = f"from {recipe.path}"
-        return box_of(body)
+        return wanted
     lengths = [deck and deck.get("Discretization", "TensorProduct3DMeshGenerator", f"{c} Length") for c in "XYZ"]
     if block is None and all(lengths):
         found["size"] = f"from the grid of {deck.path}"
         return [float(length) for length in lengths]
-    mesh = deck and deck.file("Discretization", "Input Mesh File")
-    size = mesh and extent.size_of(mesh, block)
     if size is not None:
-        found["size"] = f"from the elements of {mesh}"
+        found["size"] = f"the box around the elements of {mesh}"
+        if wanted:
+            found["size"] += f"; WARNING: the recipe beside it is of another mesh, of {' x '.join(f'{x:.5g}' for x in wanted)} m"
         return size
     result = result_of(deck, words)
     if result is None:
@@ -84,7 +101,7 @@ def points_of(result, block):
 
 
 def block_of(deck, names, words):
-    """The crushed block: --block, that of a contact force, else the only one or the one named foam; None: all."""
+    """The crushed block: --block, that of a contact force, else the only foam or lattice of the recipe, or the one named foam; None: all."""
     if words.block:
         return words.block
     for name in names:
@@ -92,7 +109,7 @@ def block_of(deck, names, words):
         if match and match[1] == "Contact_Force":
             return match[3].split(":")[0]
     recipe = deck and deck.recipe()
-    foams = [b.get("name", "body") for b in (recipe.bodies() if recipe else []) if b.get("shape") == "foam"]
+    foams = [b.get("name", "body") for b in (recipe.bodies() if recipe else []) if b.get("shape") in ("foam", "lattice")]
     if len(foams) == 1:
         return foams[0]
     blocks = deck and [value_in(keys, "Block Names") for keys in deck.sections("Blocks").values()]

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import strut_tools
-from decks import integrals, value_at, value_in
+from decks import Deck, in_xml, integrals, list_in, value_at, value_in
 from strut_tools import Parser, fail, nearest
 
 from . import extent
@@ -97,9 +97,12 @@ def is_equilibrium(deck):
 def rows_of_means(path, name, deck, times):
     """True for each row in which a force column has the mean since the previous row: all rows according to the first line
     of the history, or those of explicit steps that follow equilibria (Solver 2)."""
+    units = []
     with open(path, newline="") as file:
-        units, names = (re.split(r"units: *", file.readline().strip())[-1].split(","), file.readline().strip().split(","))
-    if len(units) == len(names) and units[names.index(name)].strip() == "N (mean)":
+        while (line := file.readline().strip()).startswith("#"):
+            units = re.split(r"units: *", line)[-1].split(",")
+    names = line.split(",")
+    if len(units) == len(names) and name in names and units[names.index(name)].strip() == "N (mean)":
         return np.full(len(times), True)
     steps_follow = is_equilibrium(deck) and deck.section("Solver 2") is not None and not name.startswith(INSTANT)
     end = value_at(deck.get("Solver", "Final Time", default=""), 0) if steps_follow else None
@@ -136,9 +139,11 @@ def motion_of(deck, axis, times):
         moves[name] = np.array(way)
         if kind == "Prescribed Displacement":
             moves[name] = moves[name] - taken_off(deck, value)
-        elif kind == "Prescribed Velocity" and goes_on:
-            begins[name] = " since the start of this run (the strain before it, by Start From, is not counted)"
-        elif kind.startswith("Rigid ") and not goes_on:
+        elif kind == "Prescribed Velocity":
+            begins[name] = " since the start of this run (the strain before it, by Start From, is not counted)" if goes_on else ""
+        elif goes_on:
+            begins[name] = " as its Travel has it (a strain before this run, by Start From, is not counted, a gap is)"
+        else:
             moves[name], begins[name] = from_the_touch(moves[name], apart_at_first(deck, keys, axis, moves[name][0]))
     return moves, begins, unknown
 
@@ -147,9 +152,39 @@ def initial_time(deck):
     return strut_tools.number(deck.get("Solver", "Initial Time")) or 0
 
 
+def about_history(deck, path, times, results):
+    """Words on a history that may be of another deck, or lacks the beginning of its run; None where it is whole."""
+    return "; ".join(words for words in deck and (of_another(deck, path, results), late_begin(deck, times)) or () if words)
+
+
+def of_another(deck, path, results):
+    """Words on a history whose run read another deck, by its checkpoint, or is older than deck or mesh; None of others."""
+    ran, mesh = deck_that_ran(deck, path, results), deck.file("Discretization", "Input Mesh File")
+    read = [name for name in (None if ran else deck.path, mesh) if name and os.path.isfile(name)]
+    newer = [name for name in read if os.path.getmtime(name) > os.path.getmtime(path)]
+    changed = ran and ", ".join(deck.changed_from(ran, ("Output", "History", "Restart", "Watch")))
+    why = f"{deck.path} has been changed since the run, in {changed}" if changed else newer and f"older than {' and '.join(newer)}, if changed since"
+    return why and f"WARNING: {why}: motion and size here may not be those of its forces; run it again"
+
+
+def deck_that_ran(deck, path, results):
+    """The deck of the run, by the checkpoint that it left with its history; None without one."""
+    import netCDF4
+
+    name = deck.get("Restart", "Filename") or os.path.splitext(os.path.basename(deck.path))[0] + ".restart"
+    checkpoint = os.path.join(results, name)
+    if not os.path.isfile(checkpoint) or os.path.getmtime(checkpoint) < os.path.getmtime(path) - 1:  # s; of a run before
+        return None
+    try:
+        with netCDF4.Dataset(checkpoint) as file:
+            return Deck.of(checkpoint, in_xml(checkpoint, file.deck))
+    except (OSError, AttributeError, SyntaxError):  # damaged, or of an older program
+        return None
+
+
 def late_begin(deck, times):
     """Words on a history that lacks the beginning of its run; None if it has it."""
-    if deck is None or deck.section("Start From") is not None or times[0] - initial_time(deck) <= 1e-9 * (times[-1] - times[0]):
+    if deck.section("Start From") is not None or times[0] - initial_time(deck) <= 1e-9 * (times[-1] - times[0]):
         return None
     return f"begins at t = {times[0]:g} s, later than the run, at {initial_time(deck):g} s: the energy that the sample absorbed between the two is left out"
 
@@ -205,7 +240,7 @@ def flat_tool(keys, axis):
 
 def numbers_in(keys, name):
     """The three numbers of a key; None if it has others."""
-    row = [strut_tools.number(word) for word in (value_in(keys, name) or "").split()]
+    row = [strut_tools.number(word) for word in list_in(keys, name)]
     return None if len(row) != 3 or None in row else row
 
 
@@ -264,11 +299,11 @@ def unstrained(deck, block, axis, height, how):
     height over the strained part of it."""
     if not how.startswith(("Mean_Displacement", "the motion")) or (deck and deck.get("Discretization", "Points") == "Nodes"):
         return None
-    edge = extent.edge_of(deck and deck.file("Discretization", "Input Mesh File"), block, axis)
+    edges = extent.edges_of(deck and deck.file("Discretization", "Input Mesh File"), block)
     planes = [keys for keys in deck.sections("Boundary Conditions").values() if value_in(keys, "Type") == "Symmetry Plane"] if deck else []
     is_mirrored = " less " not in how and any(is_across(numbers_in(plane, "Normal"), axis) for plane in planes)
     ends, where = (1, "at the end without a symmetry plane") if is_mirrored else (2, "at each end")
-    part = f", {50 * ends * edge / height:.3g} % of the height in all" if edge else ""
+    part = f", {50 * ends * edges[axis] / height:.3g} % of the height in all" if edges is not None else ""
     return f"half a spacing {where}{part}: the outer points are the middles of cells, so that strain is too small by that, and stress too large"
 
 

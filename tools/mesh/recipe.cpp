@@ -19,9 +19,9 @@ namespace strut::mesh {
 
 namespace {
 
-constexpr double tiny = std::numeric_limits<double>::min(), huge = std::numeric_limits<double>::max();
+constexpr double tiny = 1e-30, huge = 1e30;  // products of five are still numbers
 constexpr double below_one = 1 - std::numeric_limits<double>::epsilon();
-constexpr const char* a_length = "a length > 0 in m";
+constexpr const char* a_length = "a length > 0 in m (1e-30 to 1e30)";
 
 // Kinds of bodies, and groups of them that have a key in common.
 enum Kind : unsigned {
@@ -64,7 +64,8 @@ const std::vector<Key> keys = {
     {"length", round, true, nullptr, &Body::length, tiny, huge, a_length},
     {"radius", round, true, nullptr, &Body::radius, tiny, huge, a_length},
     {"top_radius", cone, true, nullptr, &Body::top_radius, tiny, huge, a_length},
-    {"size", box | of_struts, true, nullptr, &Body::size, tiny, huge, "three lengths > 0", "count"},
+    {"size", box | of_struts, true, nullptr, &Body::size, tiny, huge, "three lengths > 0 in m (1e-30 to 1e30)",
+     "count"},
     {"cell", of_struts, true, nullptr, &Body::cell, tiny, huge, a_length},
     {"relative_density", of_struts, true, nullptr, &Body::relative_density, tiny, below_one, "a number between 0 and 1",
      "thickness"},

@@ -2,7 +2,7 @@
 import itertools
 
 import numpy as np
-from decks import Deck, integrals, value_at, value_in
+from decks import Deck, integrals, list_in, value_at, value_in
 from scipy.integrate import cumulative_trapezoid
 from strut_tools import fail, history
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
@@ -38,7 +38,7 @@ class Tool:
         return found
 
     def vector(self, key):
-        return np.array([self._at(key, word, 0) for word in value_in(self.keys, key).split()])
+        return np.array([self._at(key, word, 0) for word in list_in(self.keys, key)])
 
     def offset(self, t):
         """How far it has gone at the time t (s), m."""

@@ -17,8 +17,11 @@ def text_of(path):
     try:
         with open(path, encoding="utf-8-sig") as file:
             return file.read()
-    except (OSError, UnicodeDecodeError) as error:
-        fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        fail(f"{path} is not in UTF-8: line {line} has the byte 0x{error.object[error.start]:02x}; expected UTF-8, as by iconv -f ISO-8859-1 -t UTF-8")
+    except OSError as error:
+        fail(f"{path} cannot be read: {error.strerror}")
 
 
 def in_xml(path, text):
@@ -72,6 +75,12 @@ class Deck:
         recipe = mesh and os.path.splitext(mesh)[0] + ".recipe"
         return Recipe(recipe) if recipe and os.path.isfile(recipe) else None
 
+    def changed_from(self, other, but):
+        """The sections, besides some, in which keys differ from those of another deck; tables apart, which a run fills in."""
+        ours, others = keys_in(self.root), keys_in(other.root)
+        differ = [place for place in {**ours, **others} if ours.get(place) != others.get(place) and "table(" not in ours.get(place, "")]
+        return list(dict.fromkeys(place[0] for place in differ if place[0] not in but))
+
     @classmethod
     def of(cls, path, text):
         """A deck from a text, as if it stood there."""
@@ -123,8 +132,21 @@ def section(name, content):
     return found
 
 
+def keys_in(element, *place):
+    """{(section, …, key): value}"""
+    found = {(*place, e.get("name")): e.get("value", "") for e in element.findall("Parameter")}
+    for e in element.findall("ParameterList"):
+        found |= keys_in(e, *place, e.get("name")) or {(*place, e.get("name")): ""}
+    return found
+
+
 def value_in(element, key):
     return next((e.get("value") for e in element.findall("Parameter") if e.get("name") == key), None)
+
+
+def list_in(element, key):
+    """The words of a list of numbers: 0 0 1, or {0, 0, 1}, which lists of YAML and Python become."""
+    return (value_in(element, key) or "").strip(" {}").replace(",", " ").split()
 
 
 def is_true(value):
@@ -189,7 +211,9 @@ class Recipe:
 
 
 def box_of(body):
-    """Edges of the box that a body of a recipe fills, m; a lattice may have the count of its cells instead (KeyError: neither)."""
+    """Edges of the box around a body of a recipe, m; a lattice may have the count of its cells instead (KeyError: neither)."""
+    if body.get("shape") == "cylinder":
+        return [2 * float(body["radius"])] * 2 + [float(body["length"])]
     if "size" in body:
         return [float(length) for length in body["size"].split()]
     counts = [float(count) for count in body["count"].split()]

@@ -8,6 +8,7 @@ from .faces import FACES
 
 ORDER = ("xx", "yy", "zz", "yz", "zx", "xy")
 PAIRS = ((0, 0), (1, 1), (2, 2), (1, 2), (2, 0), (0, 1))
+UNMIRRORED = ("gyroid", "diamond")  # lattices, of struts or sheets, without mirror planes across the axes
 KEPT = ("Discretization", "Node Sets", "Materials", "Blocks")
 
 
@@ -83,9 +84,14 @@ def has_library(deck):
     return any(value_in(m, "Material Model") == "User Library" for m in deck.sections("Materials").values())
 
 
-def meanings(deck):
-    """Lines that say which stiffness it is, where stress changes with time."""
+def meanings(deck, kinds):
+    """Lines that say which stiffness it is, where stress changes with time, or a lattice is no mirror image of itself."""
     told = ["stiffness of fast loading: Relaxation is left out"] if relaxing(deck) else []
+    recipe = deck.recipe()
+    turned = [body["lattice"] for body in (recipe.bodies() if recipe else []) if body.get("lattice", "").startswith(UNMIRRORED)]
+    if turned and "mixed" in kinds:
+        told.append(f"WARNING: mixed boundaries do not give the periodic stiffness of a {turned[0]}, whose cells have no mirror planes: that "
+                    "needs runs with Periodic Sides and their Stretch")
     return told + (["User Library: stiffness after 1 s of load, should its stress relax"] if has_library(deck) else [])
 
 

@@ -1,5 +1,6 @@
 """The runs of a study: each in a folder of its own, several at a time, resumed where they were stopped."""
 import copy
+import errno
 import glob
 import hashlib
 import itertools
@@ -16,6 +17,7 @@ from strut_tools import fail, is_open_mpi, mpirun, own_file, program
 
 from . import inputs, logs
 
+OWN_LINE = r"^strut[\w-]*: "  # of an error of strut or strut-mesh
 EARLY = 3  # exit status of a run that a signal or its wall time has ended
 
 
@@ -55,6 +57,11 @@ class Case:
     def done(self):
         return self.state().get("over", False)
 
+    def error(self):
+        """Why the run has no result; None if it has one."""
+        state = self.state()
+        return state.get("error") or (None if state.get("over") else f"stopped at {100 * self.part():.0f} %; the same command goes on with it")
+
     def prepare(self):
         """True if the run can be resumed. Else the folder is created anew."""
         if self.state() and glob.glob(os.path.join(glob.escape(self.folder), "*.restart*")):
@@ -80,7 +87,8 @@ class Case:
             if status < 0:  # another time it is made anew
                 return self.put_state(over=False, error=f"strut-mesh was ended by signal {-status}", seconds=0)
             if status > 0:
-                return self.put_state(over=True, error=last_line(self.log), seconds=0)
+                error = last_line(self.log)
+                return self.put_state(over=stays(error), error=error, seconds=0)
             self.started = time.monotonic()
             # A process group of its own: only this program passes on a Ctrl-C from the terminal.
             self.process = subprocess.Popen(self.command(ranks, *(["--continue"] if goes_on else [])), cwd=self.folder,
@@ -113,15 +121,17 @@ class Case:
             return logs.text_of(trial.log)
 
     def ended(self, stopped=False):
-        """True if the run has ended, now or before. One ended by a signal is resumed another time."""
+        """True if the run has ended, now or before. One ended by a signal is resumed another time, one whose error
+        may pass, as that of an MPI that does not start, is tried again."""
         if self.process is None:
             return True
         status = self.process.poll()
         if status is None:
             return False
         killed = status < 0 or status > 128  # mpirun ends with 128 and the number of the signal
-        over = status != EARLY and not killed and not (stopped and status != 0)
-        self.put_state(over=over, error=last_line(self.log) if over and status else None,
+        early = status == EARLY or killed or (stopped and status != 0)
+        error = last_line(self.log) if status and not early else None
+        self.put_state(over=not early and (error is None or stays(error)), error=error,
                        seconds=self.state().get("seconds", 0) + time.monotonic() - self.started)
         self.process = None
         return True
@@ -166,10 +176,15 @@ def claim(out, path, *written):
         json.dump({"path": own}, file)
 
 
+def stays(error):
+    """True of an error of strut or strut-mesh, which another try would meet again, as not that of a full disk."""
+    return re.match(OWN_LINE, error) is not None and os.strerror(errno.ENOSPC) not in error
+
+
 def last_line(path):
     """The error message of a program, with the problems that it lists."""
     lines = [line for line in logs.text_of(path).split("\n") if line.strip()]
-    own = [n for n, line in enumerate(lines) if re.match(r"strut[\w-]*: ", line)]
+    own = [n for n, line in enumerate(lines) if re.match(OWN_LINE, line)]
     if not own:
         return (lines or ["it said nothing"])[-1].strip()
     listed = itertools.takewhile(lambda line: line.startswith("  "), lines[own[-1] + 1:])  # MPI's messages come after it

@@ -66,7 +66,7 @@ def rows_of(study, cases):
     """For each case, {name: value} of the varied, the run's and the collected values; and the units."""
     rows, units = [], {"seconds": "s"}
     for case in cases:
-        error = case.state().get("error")
+        error = case.error()
         row = {**case.values, **facts_of(case), "warnings": len(logs.warnings_of(case)), "error": error or ""}
         known = dict(last_row(case)) if not error else {}
         if study.curve is not None and not error:

@@ -112,9 +112,19 @@ def numpy_array(path):
     return values.astype(np.uint8) if values.dtype == bool else values
 
 
+def parts_of(names):
+    """Texts and numbers of each name, by turns. A sign counts where some have another one: s-1, s0, s+1."""
+    found = [re.split(r"([+-]?\d+)", name) for name in names]
+    is_signed = [n % 2 == 1 and len({part[0] if part[0] in "+-" else "" for part in parts}) > 1 for n, parts in enumerate(zip(*found))]
+
+    def number(n, word):
+        return int(word) if n < len(is_signed) and is_signed[n] else abs(int(word))
+    return [[number(n, part) if n % 2 else part for n, part in enumerate(parts)] for parts in found]
+
+
 def sorted_naturally(names):
     """slice2 before slice10"""
-    return sorted(names, key=lambda name: [int(p) if p.isdigit() else p for p in re.split(r"(\d+)", name)])
+    return [name for _, name in sorted(zip(parts_of(names), names))]
 
 
 def bare(path, raw):
@@ -181,6 +191,9 @@ def slices(names, where):
         fail(f"{next(n for n in names if os.path.isdir(n) or os.path.getsize(n) == 0)} is empty or a folder")
     if len(names) == 1:
         return Image(*tiff(names[0]))
+    other = [name for name in names if not re.search(r"\d", os.path.basename(name))]
+    if other and len(other) < len(names):
+        fail(f"{other[0]} has no number in its name, as other slices have: expected slices alone, or a pattern that leaves it out")
     values, kind = None, "TIFF"
     for z, name in enumerate(names):
         if ending_of(name) not in TIFF:
@@ -197,7 +210,7 @@ def slices(names, where):
 def gap_in(names):
     """Words on the first place where the numbers in the names of slices, which rise or fall by equal steps, leave some out:
     the body is shorter by those."""
-    numbers = [[int(n) for n in re.findall(r"\d+", os.path.basename(name))] for name in names]
+    numbers = [parts[1::2] for parts in parts_of([os.path.basename(name) for name in names])]
     if len({len(found) for found in numbers}) > 1:
         return ""
     steps = [tuple(b - a for a, b in zip(one, other)) for one, other in zip(numbers, numbers[1:])]

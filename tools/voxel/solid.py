@@ -35,6 +35,22 @@ def otsu(counts, levels):
     return levels[best[len(best) // 2]]
 
 
+def padding_told(values, threshold, counts, levels):
+    """Words on a value that only the surroundings of the image have, in columns through all of it, where Otsu's threshold
+    differs without it; else nothing."""
+    there = values == values[0, 0, 0]
+    through = max((there.all(axis) for axis in range(3)), key=np.mean)
+    share = through.mean()
+    if not 0.01 < share < 1 or there.mean() - share > 0.01 * (1 - share):  # the void has it, too
+        return ""
+    without = otsu(np.where(np.arange(len(levels)) == np.searchsorted(levels, values[0, 0, 0]), 0, counts), levels)
+    parts = np.count_nonzero((values > without) & ~there), np.count_nonzero((values > threshold) & ~there)
+    if abs(parts[0] - parts[1]) <= 0.02 * max(parts):
+        return ""
+    return (f"; WARNING: {100 * share:.3g} % of the voxels, in columns through all of the image, have the value {values[0, 0, 0]:g}, and few "
+            f"others: if they are outside of the field of view, expected --threshold {without:g}, Otsu's without them")
+
+
 def two_valued(values):
     low, high = values.min(), values.max()
     return all(((layer == low) | (layer == high)).all() for layer in values)
@@ -57,18 +73,20 @@ def solid_of(path, values, threshold, invert, may_fill=False):
     low, high = values.min(), values.max()
     if low == high and not may_fill:
         fail(f"{path}: all voxels have the value {low:g}, so that nothing tells solid from void")
-    how = "as given"
+    how, told = "as given", ""
     if threshold is None and two_valued(values):
         threshold, how = low, f"none needed: two values, {low:g} and {high:g}"
     elif threshold is None or threshold == "otsu":
-        threshold, how = otsu(*histogram(values)), "by Otsu's method"
+        found = histogram(values)
+        threshold, how = otsu(*found), "by Otsu's method"
+        told = padding_told(values, threshold, *found)
     solid = values <= threshold if invert else values > threshold
     if not solid.any() or solid.all() and not may_fill:
         fail(f"{path}: at the threshold {threshold:g} every voxel is {'solid' if solid.any() else 'void'}; "
              f"the values go from {low:g} to {high:g}")
     if how.startswith("none"):
         return solid, f"{how}; solid is {low if invert else high:g}"
-    return solid, f"{threshold:g}, {how}; solid is {'<=' if invert else '>'} it"
+    return solid, f"{threshold:g}, {how}; solid is {'<=' if invert else '>'} it{told}"
 
 
 def materials_of(path, values, ranges):

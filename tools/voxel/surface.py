@@ -53,6 +53,8 @@ def read(path, edge, factor=1.0, in_part=False):
     told = f"closed surface of {surface.GetNumberOfPolys():,} triangles in STL, volume {volume:.6g} m3"
     if twice:
         told += f", overlaps twice; bodies overlap in {twice:,} voxels, which are solid"
+    elif not in_part and volume > 0:
+        told += f" ({round(100 * (np.count_nonzero(values > 0) * edge**3 / volume - 1), 2) + 0:+.2f} % in voxels)"
     if turned:
         told += f"; {turned} wound the other way and outside the rest, taken as {'a body' if turned == 1 else 'bodies'}"
     return Image(values, (edge,) * 3, told)

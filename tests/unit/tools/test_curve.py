@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """tools/curve on curves and shocks whose numbers are known in closed form, and run as a user runs it."""
 import csv
+import os
 import pathlib
 import tempfile
 import unittest
@@ -149,12 +150,31 @@ class Extents(InFolder):
         self.assertIsNone(extent.size_of(self.write(np.full((1, 3), 0.5), element=None), "foam"))
 
     def test_a_lattice_is_as_large_as_its_recipe_says_and_not_as_its_struts_reach(self):
-        self.write(np.array([[0.5, 0.5, 0.5]]))
         deck = self.folder / "a.yaml"
         deck.write_text("A: {Discretization: {Input Mesh File: m.g}}\n")
         for lines, expected in (("size = 2 3 4", [2, 3, 4]), ("count = 2 3 4\ncell = 0.5", [1, 1.5, 2]), ("count = 4\ncell = 0.5", [2, 2, 2])):
             (self.folder / "m.recipe").write_text(f"shape = lattice\nlattice = bcc\n{lines}\n")
+            self.write(np.array([[0.5] * 3, np.array(expected) * 10 - 1]), scale=0.1)
             self.assertEqual(samples.size_of(Deck(str(deck)), None, None, {}), expected)
+            self.write(np.array([[0.5] * 3, np.array(expected) * 5]), scale=0.1)  # the recipe has been changed since
+            found = {}
+            np.testing.assert_allclose(samples.size_of(Deck(str(deck)), None, None, found), np.array(expected) / 2 + 0.05, atol=0.06)
+            self.assertIn("WARNING: the recipe beside it is of another mesh", found["size"])
+
+    def test_the_section_of_a_cylinder_is_a_circle_and_an_outline_that_is_no_box_is_told(self):
+        middles = np.stack(np.meshgrid(*[np.arange(20) + 0.5] * 2, [0.5], indexing="ij"), -1).reshape(-1, 3)
+        mesh = self.write(middles[np.hypot(*(middles[:, :2] - 10).T) < 10])
+        self.assertAlmostEqual(extent.outline_of(mesh, None, 2) / (100 * np.pi), 1, delta=0.1)  # corners of cells stand out
+        deck = self.folder / "a.yaml"
+        deck.write_text("A: {Discretization: {Input Mesh File: m.g}}\n")
+        words = SimpleNamespace(area=None, height=None, density=1)
+        for axis, told in ((2, "of it: expected --area"), (0, None)):
+            sample = samples.sample_of(Deck(str(deck)), axis, None, words)
+            self.assertAlmostEqual(sample.area, 400 if axis == 2 else 20, 9)
+            self.assertIn(told, sample.found["area"]) if told else self.assertNotIn("area", sample.found)
+        (self.folder / "m.recipe").write_text("shape = cylinder\nradius = 10.1\nlength = 1\n")
+        for axis, expected in ((2, np.pi * 10.1**2), (0, 20.2)):
+            self.assertAlmostEqual(samples.sample_of(Deck(str(deck)), axis, None, words).area, expected, 9)
 
     def test_a_grid_of_the_deck_is_as_large_as_its_lengths(self):
         deck = self.folder / "a.yaml"
@@ -375,8 +395,33 @@ class Runs(InFolder):
         for begin, expected in (("", 0.5 * times), ('<ParameterList name="Start From"/>', 0.1 + 0.5 * times)):
             deck = tool.replace("-1e-2*t", "-2e-3-1e-2*t").replace('<ParameterList name="History">', f'{begin}<ParameterList name="History">')
             (self.folder / "block.xml").write_text(deck)
-            self.made("block.xml")
+            self.assertEqual("by Start From, is not counted" in self.curve("block.xml").stdout, bool(begin))
             np.testing.assert_allclose([float(row[1]) for row in self.table("block-curve.csv")[1:]], expected, atol=1e-9)
+
+    def test_a_history_of_another_deck_is_told_by_its_checkpoint_else_by_its_age(self):
+        self.history({"Time": STRAIN, "Reaction_Z(top)": stress_at(STRAIN)})
+        history = (self.folder / "block.csv").stat().st_mtime
+
+        def told(later, deck=DECK, checkpoint=None):
+            (self.folder / "block.xml").write_text(deck)
+            os.utime(self.folder / "block.xml", (history, history + later))
+            if checkpoint is not None:
+                netCDF4.Dataset(self.folder / "block.restart", "w").deck = DECK
+                os.utime(self.folder / "block.restart", (history, history + checkpoint))
+            return "".join(line for line in self.curve("block.xml").stdout.splitlines() if line.startswith("history"))
+        self.assertEqual(told(-1), "")
+        self.assertIn("WARNING: older than block.xml, if changed since: ", told(1))
+        self.assertEqual(told(1, checkpoint=0), "")
+        for later in (-1, 1):
+            self.assertIn("WARNING: block.xml has been changed since the run, in Boundary Conditions: ", told(later, DECK.replace("-1e-2", "-2e-2")))
+        self.assertEqual(told(-1, DECK.replace('name="History">', 'name="History"><Parameter name="Interval" type="double" value="1"/>')), "")
+        self.assertIn("older than", told(1, checkpoint=-10))  # the checkpoint is of a run before
+
+    def test_a_table_of_ones_own_needs_no_comment(self):
+        for comments in ("", "# mine\n", "# mine\n# of today\n"):
+            (self.folder / "own.csv").write_text(comments + "Time,F\n0,0\n1,10\n2,20\n")
+            done = self.curve("own.csv", "--force", "F", "--shortening", "1e-2*t", "--area", 1, "--height", 1)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), comments)
 
     def test_the_first_value_of_a_displacement_of_peridigm_is_no_strain(self):
         times = np.linspace(0, 1, 11)
@@ -395,8 +440,8 @@ class Runs(InFolder):
         key = '<Parameter name="%s" type="string" value="%s"/>'
         deck = DECK.replace('"Value"', '"Travel Z"')
 
-        def curve(kind, travel, *places):
-            keys = "".join(key % (name, f"0 0 {number}") for name, number in places)
+        def curve(kind, travel, *places, form="0 0 %s"):
+            keys = "".join(key % (name, form % number) for name, number in places)
             text = deck.replace("Prescribed Displacement", kind).replace("-1e-2*t", travel).replace(key % ("Coordinate", "z"), keys)
             (self.folder / "block.xml").write_text(text)
             done = self.curve("block.xml", "--height", "8e-3", "--area", "1")
@@ -410,6 +455,8 @@ class Runs(InFolder):
             said, way = curve(*words)
             np.testing.assert_allclose(way, np.maximum(2 * times - 1, 0), atol=1e-8)  # nine digits in the file
             self.assertIn("`top` less 0.001 m, by which it stands apart", said)
+        for form in ("{0, 0, %s}", "0, 0, %s"):  # lists of YAML and Python, and with commas
+            self.assertIn("less 0.001 m", curve(plane, "-2e-3*t", ("Point", 9e-3), ("Normal", -1), form=form)[0])
         for place in (8e-3, 7e-3):  # where bodies are taken as cut off
             said, way = curve(plane, "-2e-3*t", ("Point", place), ("Normal", -1))
             np.testing.assert_allclose(way, 2 * times, atol=1e-8)
@@ -496,6 +543,9 @@ class Runs(InFolder):
             done = self.curve("block.xml", *words)
             self.assertRegex(done.stdout, r"(?m)^force +Reaction_Z\(top\)\nother end +Reaction_Z\(bottom\)\n")
             self.assertRegex(done.stdout, r"plateau_stress +- Pa .* both ends differ by 40 %")
+        self.history({**columns, "Reaction_Z(wall)": force, "Reaction_Z(bottom)": 2 / 3 * force})
+        self.assertIn("Reaction_Z(wall) (the next of the history; --other names another one: Reaction_Z(bottom))", self.curve("block.xml").stdout)
+        self.history({**columns, "Instant_Reaction_Z(top)": -force, "Reaction_Z(bottom)": 2 / 3 * force})
         done = self.curve("block.xml", "--force", "Reaction_Z(bottom)")
         self.assertRegex(done.stdout, r"(?m)^force +Reaction_Z\(bottom\)\nother end +Reaction_Z\(top\)\n")
         self.history({**columns, "Instant_Reaction_Z(top)": -force})
@@ -559,6 +609,8 @@ class Runs(InFolder):
             self.assertIn(words, self.error(*whole, "t"))
         (self.folder / "block.xml").write_text(DECK.replace("History", "Histry"))
         self.assertIn("has no history", self.error("block.xml"))
+        (self.folder / "block.xml").write_bytes(DECK.replace("no.g", "é.g").encode("latin-1"))
+        self.assertIn("block.xml is not in UTF-8: line 2 has the byte 0xe9", self.error("block.xml"))
 
 
 class Decks(unittest.TestCase):

@@ -288,6 +288,15 @@ TEST_F(MeshTool, WrongRecipesAreRefusedWithTheirLines) {
   EXPECT_FALSE(std::filesystem::exists(path("mesh.g")));
 }
 
+TEST_F(MeshTool, LengthsWhoseProductsAreNoNumbersAreRefused) {
+  const testing::Outcome outcome = make("shape = box\nsize = 1e300 1e300 1e300\nspacing = 1e299\n");
+  EXPECT_EQ(outcome.status, 1);
+  for (const char* expected : {"line 2: size is '1e300 1e300 1e300', expected three lengths > 0 in m (1e-30 to 1e30)",
+                               "line 3: spacing is '1e299', expected a length > 0 in m (1e-30 to 1e30)"}) {
+    EXPECT_NE(outcome.text.find(expected), std::string::npos) << outcome.text;
+  }
+}
+
 TEST_F(MeshTool, AFileOfAnotherKindIsRefusedInOneSentence) {
   std::string facets = "solid part\n";
   for (int n = 0; n < 1000; ++n) {

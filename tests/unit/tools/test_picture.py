@@ -331,7 +331,7 @@ class RigidTools(InFolder):
     def test_surfaces_are_closed_and_face_outwards(self):
         low, high = np.zeros(3), np.full(3, 6.0)
         roll = {"Type": "Rigid Cylinder", "Point": "3 0 7", "Axis": "0 2 0", "Radius": "1"}
-        plane = {"Type": "Rigid Plane", "Point": "1 2 3", "Normal": "1 1 0"}
+        plane = {"Type": "Rigid Plane", "Point": "{1, 2, 3}", "Normal": "1, 1, 0"}  # lists as of YAML, too
         deck = deck_of(self.folder / "a.xml", {"roll": roll, "plane": plane})
         parts = [tool.surface(low, high) for tool in rigid.tools_of(str(deck))]
         # Volumes by the divergence theorem; VTK has some of its numbers in single precision. The roll reaches 0.15 of the size beyond the body at both ends; the

@@ -12,7 +12,7 @@ from tool_test import TOOLS, InFolder
 
 import netCDF4
 import numpy as np
-from decks import section
+from decks import Deck, section
 from exodus import write_mesh
 from stiffness_parts import faces, loads, show, tensors
 
@@ -232,6 +232,15 @@ class Samples(InFolder):
             measured = self.run_tool("stiffness", "decks/a.xml", "out", STRUT_MESH=str(bin / "strut-mesh"))
             for done in (run, measured):
                 self.assertEqual("made anew" in done.stderr, newest != "a.g", (newest, done.stderr))
+
+    def test_mixed_boundaries_of_a_lattice_without_mirror_planes_are_told(self):
+        (self.folder / "a.xml").write_text(deck("a.g", {"foam": (70e9, 0.3)}))
+        for lattice in ("gyroid", "diamond-sheet", "octet"):
+            (self.folder / "a.recipe").write_text(f"shape = lattice\nlattice = {lattice}\n")
+            for kinds in ({"mixed": 0, "kinematic": 0}, {"kinematic": 0}):
+                told = loads.meanings(Deck(str(self.folder / "a.xml")), kinds)
+                self.assertEqual([f"do not give the periodic stiffness of a {lattice}," in line for line in told],
+                                 [True] if "mixed" in kinds and lattice != "octet" else [])
 
     def test_errors_are_one_line_that_helps(self):
         (self.folder / "a.xml").write_text(deck("a.g", {"block": (117e9, 0.35)}))

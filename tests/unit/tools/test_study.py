@@ -204,9 +204,25 @@ class Studies(InFolder):
         status, out, errors = self.study("bar.study", "out", "--jobs", "2", **programs)
         self.assertGreater(json.loads(state.read_text())["seconds"], before)  # of both parts
         self.assertEqual((self.folder / "out/went").read_text(), "went on\n")
-        self.assertEqual((status, errors), (1, "tools/study: 1 of 2 runs have failed: see the table\n"))
+        self.assertEqual((status, errors), (1, "tools/study: 1 of 2 runs have no result: see the table\n"))
         self.assertEqual([(r["Mean_Velocity_Z"], r["error"]) for r in self.rows()],
                          [("2", ""), ("", "strut: deck.xml: 1 problem; Solver: it was expected")])
+
+    def test_a_run_that_its_wall_time_stopped_is_no_result_and_an_error_that_passes_is_tried_again(self):
+        programs = self.programs("""#!/bin/sh
+printf 'Time,Mean_Displacement_Z,Mean_Velocity_Z\\n0,2,1\\n' > bar.csv
+[ -e ../again ] && exit 0
+grep -q 'value="-20"' bar.xml && { echo 'MPI_Init has failed'; exit 1; }
+echo ' 68 %  t = 1 s'; exit 3
+""")
+        (self.folder / "bar.study").write_text(STUDY.replace("1e-3 2e-3", "1e-3").split("plot")[0])
+        status, out, errors = self.study("bar.study", "out", **programs)
+        self.assertEqual((status, errors), (1, "tools/study: 2 of 2 runs have no result: see the table\n"), out)
+        self.assertEqual([(r["Mean_Velocity_Z"], r["error"]) for r in self.rows()],
+                         [("", "stopped at 68 %; the same command goes on with it"), ("", "MPI_Init has failed")])
+        (self.folder / "out/again").touch()
+        self.assertEqual(self.study("bar.study", "out", **programs)[0], 0)
+        self.assertEqual([(r["Mean_Velocity_Z"], r["error"]) for r in self.rows()], [("1", ""), ("1", "")])
 
     def test_ctrl_c_while_a_mesh_is_made_ends_it_and_leaves_the_run_to_be_made(self):
         programs = self.programs()

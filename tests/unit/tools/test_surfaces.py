@@ -101,7 +101,7 @@ class Surfaces(InFolder):
         words = ("out.g", "--voxel-size", 1e-3, "--pieces", 0)
         printed = self.works("apart.stl", *words)
         self.assertIn(f"{8**3 + 4**3}, each", printed)
-        self.assertIn("volume 5.76e-07 m3; 1 wound the other way and outside the rest, taken as a body", printed)
+        self.assertIn("volume 5.76e-07 m3 (+0.00 % in voxels); 1 wound the other way and outside the rest, taken as a body", printed)
         bricks(self.folder / "hollow.stl", whole, apart, hole, cavities=[1])  # its cavity is wound the other way, too
         self.assertIn(f"{8**3 + 4**3 - 2**3}, each", self.works("hollow.stl", *words))
         bricks(self.folder / "out.stl", whole, (6e-3, 10e-3, 2e-3, 6e-3, 2e-3, 6e-3), cavities=[1])
@@ -113,7 +113,9 @@ class Surfaces(InFolder):
         text = "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex {:g} {:g} {:g}\n".format(*corners[c]) for c in
                        (face if number < 6 else face[::-1])) + "endloop\nendfacet\n" for number, face in enumerate(faces))
         (self.folder / "mixed.stl").write_text(f"solid x\n{text}endsolid x\n")
-        self.assertIn("volume 2.4e-08 m3", self.works("mixed.stl", "out.g", "--voxel-size", 1e-3))
+        self.assertIn("volume 2.4e-08 m3 (+0.00 % in voxels)", self.works("mixed.stl", "out.g", "--voxel-size", 1e-3))
+        # Of 4 x 3 x 2 voxels of 1.3 mm all have their middles inside.
+        self.assertIn(f"({100 * (4 * 3 * 2 * 1.3**3 / 24 - 1):+.2f} % in voxels)", self.works("mixed.stl", "out.g", "--voxel-size", 1.3e-3))
 
     def test_a_block_may_fill_its_box(self):
         bricks(self.folder / "block.stl", (0, 4e-3, 0, 3e-3, 0, 2e-3))

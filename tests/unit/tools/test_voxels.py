@@ -273,6 +273,22 @@ class KnownAnswers(ToolTest):
             _, mesh = self.voxels(image, "--invert", "--pieces", 0)
             self.assertEqual(len(mesh.blocks["foam"]), (~solid).sum())
 
+    def test_a_field_of_view_whose_outside_misleads_otsu_is_told(self):
+        rng, solid = np.random.default_rng(1), ball(40, 8)
+        y, x = np.indices(solid.shape[1:]) - 19.5
+        image = (rng.normal(0, 300, solid.shape) + np.where(solid, 6000, 0)).astype("i2")
+        outside = np.broadcast_to(np.hypot(x, y) > 18, solid.shape)
+        for value, misleads in ((-3000, True), (-32768, True), (0, False)):
+            image[outside] = value
+            said = self.voxels(image)[0]["threshold"]
+            self.assertEqual("WARNING" in said, misleads, said)
+            if misleads:
+                self.assertIn(f"have the value {value}, and few others", said)
+                better = re.search(r"--threshold (\d+)", said)[1]
+                self.assertEqual(len(self.voxels(image, "--threshold", better)[1].blocks["foam"]), solid.sum())
+        image = np.where(solid, 100 + image // 1000, 0).astype("u1")  # what was cut out of air that is 0
+        self.assertNotIn("WARNING", self.voxels(image)[0]["threshold"])
+
     def test_a_threshold_is_what_solid_is_larger_than(self):
         image = np.arange(64, dtype="u1").reshape(4, 4, 4)
         self.assertEqual(len(self.voxels(image, "--threshold", 31)[1].blocks["foam"]), 32)
@@ -770,6 +786,16 @@ class Formats(ToolTest):
         self.assertNotIn("WARNING", self.works("voxels", self.path("slices/s*[02468].tif"), "--size", 1)[0]["image"])
         os.remove(self.path("slices/s2.tif"))
         self.assertIn("none is numbered from 2 to 2, between s1.tif and s3.tif", self.works("voxels", self.path("slices"), "--size", 1)[0]["image"])
+
+    def test_slices_are_in_the_order_of_their_signed_numbers_and_alone(self):
+        os.mkdir(self.path("slices"))
+        for z, page in enumerate(self.image):
+            tifffile.imwrite(self.path(f"slices/a-1_s{z - 3 if z < 4 else f'+{z - 3}'}.tif"), page)  # s-3 s-2 s-1 s0 s+1 …
+        self.check(self.path("slices"), "--voxel-size", *self.spacing)
+        self.assertEqual(images.sorted_naturally(["s-10", "s-9", "s-1"]), ["s-1", "s-9", "s-10"])  # a hyphen
+        self.assertIn("numbered from 0 to 0", images.gap_in(["s-2", "s-1", "s1", "s2"]))
+        tifffile.imwrite(self.path("slices/preview.tif"), self.image[0])
+        self.refused("voxels", "preview.tif has no number in its name", self.path("slices"), "--size", 1)
 
     def test_slices_that_are_numbered_downwards_may_leave_some_out_too(self):
         self.assertIn("none is numbered from 7 to 6, between b8.tif and c5.tif", images.gap_in(["a9.tif", "b8.tif", "c5.tif", "d4.tif"]))

@@ -133,11 +133,12 @@ def deck_of_run(run, folder):
     if not run.history:
         raise _core.Error("curve: the run has no history; expected a section History with forces in its deck")
     history = {**run.deck["History"], "Filename": FILE + ".csv"}
+    path = write_deck(Deck({**run.deck, "History": history}, run.deck.name), run.mesh, folder)  # before it, as of a run
     with open(os.path.join(folder, history["Filename"]), "w") as file:
         units = run.history.units
         file.write(f"# {_core.version()}; units: {','.join(units.values())}\n{','.join(units)}\n")
         np.savetxt(file, np.transpose(list(run.history.values())), "%.17g", ",")
-    return write_deck(Deck({**run.deck, "History": history}, run.deck.name), run.mesh, folder)
+    return path
 
 
 def write_deck(deck, mesh, folder):
