@@ -197,7 +197,7 @@ TEST(MultiTimeStepping, HaveTwoSubstepsAtTheMostWhereAPointIsPushed) {
     for (int n = 1; n < 40; ++n) {
       const double safety_factor = 0.6 + 4e-3 * n;  // the margin is 0.6 by it
       body.time_levels->clear();
-      MultiTimeStepping().choose(body, safety_factor, {0, 1}, {pushed, {}});
+      MultiTimeStepping().choose(body, safety_factor, {0, 1}, {pushed, {}, {}});
       EXPECT_EQ(max_level(body), 1) << ratio << ", " << safety_factor;
     }
   }
