@@ -282,12 +282,15 @@ double soft_ends_of(const Body& body, int of_body) {
 namespace {
 
 // The bending stiffness that a body, `layers` long along an axis, has too much where its ends are held, or moved in any
-// direction: half a spacing at each does not bend. 0 if it is less than three times as long as it is thick. Motions of
-// all points, as of plane strain, move no end. `counted`: of the body, free_points().
+// direction: half a spacing at each does not bend. 0 if it is less than three times as long as it is thick, or wider
+// than long. Motions of all points, as of plane strain, move no end. `counted`: of the body, free_points().
 double stiffer_in_bending(const double* counted, const double* most, int axis, double layers) {
-  double thinnest = layers;
-  for (int c = 0; c < 3; ++c) thinnest = std::min(thinnest, 1 + (most[2 * c] + most[2 * c + 1]) / most[sides]);
-  if (layers < 3 * thinnest) return 0;
+  double thinnest = layers, longest = layers;
+  for (int c = 0; c < 3; ++c) {
+    const double here = 1 + (most[2 * c] + most[2 * c + 1]) / most[sides];
+    thinnest = std::min(thinnest, here), longest = std::max(longest, here);
+  }
+  if (layers < 3 * thinnest || layers < 0.9 * longest) return 0;
   int ends = 0;
   for (const int side : {2 * axis, 2 * axis + 1}) {
     bool is_end = counted[side] == 0;
