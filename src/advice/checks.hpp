@@ -88,7 +88,7 @@ Check volumes_off_lattices;
 // largest difference of the speeds that conditions impose at the start, relative to it.
 Check outline;
 // A warning for each block with a density, a wave speed, a thermal expansion, or a ratio of yield stress to Young's
-// modulus that no solid has, and for each friction and weight that looks like another unit's; it names the units.
+// modulus that no solid has; it names the units.
 Check improbable_materials;
 // A warning for each block of an elastomer or a foam whose springs have less than half the default stiffness, and of an
 // elastomer that relaxes while they do not.
@@ -96,8 +96,8 @@ Check unusual_springs;
 // A warning for each block of a metal that is initially molten, or so cold that its temperature may be in °C, and for
 // each prescribed temperature below 0 K.
 Check improbable_temperatures;
-// Warnings for a body that is improbably large or small, by itself or for the duration of the run, and for
-// bodies that meet faster than waves travel.
+// Warnings for a body that is improbably large or small, by itself or for the duration of the run, for bodies that meet
+// faster than waves travel, and for frictions and weights that look like another unit's.
 Check improbable_scales;
 // A line for each elastic block by correspondence in an explicit run whose initial speeds differ so much
 // that its energy will not be conserved: at strains of some percent its rate form is inaccurate, and the time step

@@ -144,39 +144,38 @@ std::string outline(const Situation& situation) {
 }
 
 std::string improbable_materials(const Situation& situation) {
-  return improbable_frictions(situation) + weights_by_mass(situation) +
-         lines_of_blocks(situation, [](const MaterialBlock& block, std::size_t) {
-           const double density = block.material.density, speed = wave_speed(block.material);
-           const std::string begin = "WARNING: block '" + block.name + "' ";
-           std::ostringstream text;
-           text.precision(4);
-           if (!(density >= least_density && density <= most_density)) {
-             text << begin << "has a density of " << density
-                  << " kg/m³; solids have 10 to 30,000: is Density in kg/m³ (2.7 g/cm³ are 2700)?\n";
-           }
-           const bool is_elastomer = std::holds_alternative<materials::Hyperelastic>(block.material.law);
-           if (!(speed >= (is_elastomer ? least_of_elastomers : least_wave_speed) && speed <= most_wave_speed)) {
-             text << begin << "has a wave speed of " << speed << " m/s; "
-                  << (is_elastomer ? "elastomers have 10 to 20,000" : "solids have 100 to 20,000")
-                  << ": are moduli in Pa (70 GPa are 70e9) and the density in kg/m³?\n";
-           }
-           if (block.material.thermal_expansion > most_expansion) {
-             text << begin << "has a Thermal Expansion Coefficient of " << block.material.thermal_expansion
-                  << " 1/K; solids have less than 1e-3: is it in 1/K (16.5 µm/(m K) are 16.5e-6)?\n";
-           }
-           const double yield = yield_ratio(block.material);
-           if (std::isfinite(yield) && yield > 0 && !(yield >= least_yield && yield <= most_yield)) {
-             text << begin << "yields at " << yield
-                  << " of its Young's modulus; solids have 1e-7 to 0.1: are both in Pa (50 MPa are 50e6)?\n";
-           }
-           const double hardens = hardening(block.material);
-           if (hardens > 1e-12 && hardens < least_hardening) {
-             text << begin << "hardens by " << hardens
-                  << " of its yield stress until a plastic strain of 1, which is nothing: are both in Pa (50 MPa are "
-                     "50e6)?\n";
-           }
-           return text.str();
-         });
+  return lines_of_blocks(situation, [](const MaterialBlock& block, std::size_t) {
+    const double density = block.material.density, speed = wave_speed(block.material);
+    const std::string begin = "WARNING: block '" + block.name + "' ";
+    std::ostringstream text;
+    text.precision(4);
+    if (!(density >= least_density && density <= most_density)) {
+      text << begin << "has a density of " << density
+           << " kg/m³; solids have 10 to 30,000: is Density in kg/m³ (2.7 g/cm³ are 2700)?\n";
+    }
+    const bool is_elastomer = std::holds_alternative<materials::Hyperelastic>(block.material.law);
+    if (!(speed >= (is_elastomer ? least_of_elastomers : least_wave_speed) && speed <= most_wave_speed)) {
+      text << begin << "has a wave speed of " << speed << " m/s; "
+           << (is_elastomer ? "elastomers have 10 to 20,000" : "solids have 100 to 20,000")
+           << ": are moduli in Pa (70 GPa are 70e9) and the density in kg/m³?\n";
+    }
+    if (block.material.thermal_expansion > most_expansion) {
+      text << begin << "has a Thermal Expansion Coefficient of " << block.material.thermal_expansion
+           << " 1/K; solids have less than 1e-3: is it in 1/K (16.5 µm/(m K) are 16.5e-6)?\n";
+    }
+    const double yield = yield_ratio(block.material);
+    if (std::isfinite(yield) && yield > 0 && !(yield >= least_yield && yield <= most_yield)) {
+      text << begin << "yields at " << yield
+           << " of its Young's modulus; solids have 1e-7 to 0.1: are both in Pa (50 MPa are 50e6)?\n";
+    }
+    const double hardens = hardening(block.material);
+    if (hardens > 1e-12 && hardens < least_hardening) {
+      text << begin << "hardens by " << hardens
+           << " of its yield stress until a plastic strain of 1, which is nothing: are both in Pa (50 MPa are "
+              "50e6)?\n";
+    }
+    return text.str();
+  });
 }
 
 namespace {
@@ -379,6 +378,7 @@ std::string improbable_scales(const Situation& situation) {
   const auto [least, most] = wave_speeds(scene.body);
   std::ostringstream text;
   text.precision(4);
+  text << improbable_frictions(situation) << weights_by_mass(situation);
   if (!(size >= least_size && size <= most_size)) {
     text << "WARNING: the bodies are " << size << " m long: are lengths of the mesh in m?\n";
   } else if (!scene.quasi_static && size > long_for_waves && most * duration < size) {
