@@ -14,10 +14,10 @@ constexpr Check* checks[] = {  // in the order of their warnings
     without_effect, doubled_numbers, volumes_off_lattices, improbable_materials, unusual_springs,
     improbable_temperatures, improbable_scales, large_elastic_strains, sudden_stretches, overlaps, flat_families,
     unknown_gradients, unequal_horizons, points_off_lattices, contact_at_mirrors, filled_tools, thin_tools, apart_tools,
-    meeting_tools, stopped_layers, overruled_motions, held_stretches, held_ends, thin_members, unstrained_ends,
-    cracks_of_plates, uneven_dilatation, oblong_cells, narrow_surfaces_of_nodes, sudden_failure, coarse_averages,
-    noisy_cracks, gradual_cracks, late_breaks, soft_faces, breaks_under_pressure, improbable_stretches, bonded_contacts,
-    bonded_gaps, surfaces_at_seams, undeclared_contacts, unheld_bodies, weak_contacts};
+    meeting_tools, stopped_layers, overruled_motions, held_stretches, held_ends, thin_members, unlike_layers,
+    unstrained_ends, cracks_of_plates, uneven_dilatation, oblong_cells, narrow_surfaces_of_nodes, sudden_failure,
+    coarse_averages, noisy_cracks, gradual_cracks, late_breaks, soft_faces, breaks_under_pressure, improbable_stretches,
+    bonded_contacts, bonded_gaps, surfaces_at_seams, undeclared_contacts, unheld_bodies, weak_contacts};
 
 Situation situation_of(const deck::Deck& deck, const Scene& scene) {
   const PointCloud& cloud = scene.body.domain.cloud;

@@ -87,8 +87,8 @@ Check volumes_off_lattices;
 // Lines for the start of a run: box and mass of the reference state; wave speed √((K + 4μ/3)/ρ), and the
 // largest difference of the speeds that conditions impose at the start, relative to it.
 Check outline;
-// A warning for each block with a density, a wave speed, or a ratio of yield stress to Young's modulus that no solid
-// has; it names the units.
+// A warning for each block with a density, a wave speed, a thermal expansion, or a ratio of yield stress to Young's
+// modulus that no solid has; it names the units.
 Check improbable_materials;
 // A warning for each block of an elastomer or a foam whose springs have less than half the default stiffness, and of an
 // elastomer that relaxes while they do not.
@@ -96,8 +96,8 @@ Check unusual_springs;
 // A warning for each block of a metal that is initially molten, or so cold that its temperature may be in °C, and for
 // each prescribed temperature below 0 K.
 Check improbable_temperatures;
-// Warnings for a body that is improbably large or small, by itself or for the duration of the run, and for
-// bodies that meet faster than waves travel.
+// Warnings for a body that is improbably large or small, by itself or for the duration of the run, for bodies that meet
+// faster than waves travel, and for frictions and weights that look like another unit's.
 Check improbable_scales;
 // A line for each elastic block by correspondence in an explicit run whose initial speeds differ so much
 // that its energy will not be conserved: at strains of some percent its rate form is inaccurate, and the time step
@@ -138,6 +138,8 @@ Check improbable_stretches;
 // A line for each block whose members are so thin that correspondence loses a tenth of their bending stiffness,
 // ordinary points have an error of a tenth in tension, or quadratic correspondence may have one of a twentieth.
 Check thin_members;
+// A line for each block of quadratic cells that is bonded to another one, at least twice as stiff.
+Check unlike_layers;
 // A line for each body and axis along which outer layers are held or pressed by a plane, if cells that do not strain
 // there add a twentieth to the stiffness, or nodes that give way take a twentieth.
 Check unstrained_ends;
@@ -222,7 +224,8 @@ Check overruled_motions;
 // A warning for each block and Stretch of periodic sides that changes while conditions hold all points of the body,
 // which goes on across the sides, along their axis.
 Check held_stretches;
-// A warning for each non-reflecting end whose points a condition holds along its normal.
+// A warning for each non-reflecting end whose points a condition holds along its normal, whose inertia is scaled, or
+// which lets go of stress that the run starts from.
 Check held_ends;
 
 }  // namespace strut

@@ -30,6 +30,11 @@ constexpr double least_size = 1e-8, most_size = 1e3, long_for_waves = 0.5;  // m
 constexpr double most_mass = 1e4;  // kg: a cube of foam of 4 mm weighs 19 t if these are m
 constexpr double crossings_of_slow = 100;
 
+// Soft rubbers expand by 3e-4 1/K; rubber on rubber has a friction of 1 to 4; tin melts at 505 K, lead at 601 K, which
+// in °C are below 400.
+constexpr double most_expansion = 1e-3, most_friction = 5, least_melting = 400;
+constexpr double gravity = 9.81, alike_gravity = 0.02;  // m/s²
+
 // Yield stress of the undeformed material over Young's modulus; infinite if it never yields.
 double yield_ratio(const BlockMaterial& material) {
   return std::visit(
@@ -96,6 +101,30 @@ double largest_difference(const Situation& situation) {
   return velocities.isEmpty() ? 0 : velocities.diagonal().norm();
 }
 
+std::string improbable_frictions(const Situation& situation) {
+  double most = 0;
+  for (const contact::Interaction& one : situation.interactions) most = std::max(most, one.model.friction);
+  for (const RigidTool& tool : tools_of(situation.scene.conditions)) most = std::max(most, tool.friction);
+  if (!(most > most_friction)) return "";
+  return text_of("WARNING: a Friction Coefficient is ", most,
+                 "; of solids it is 0 to 2: is it force over force, not percent (20 % are 0.2)?\n");
+}
+
+// A load of 9.81 per volume of a solid is a thousandth of its weight or less: it was meant per mass.
+std::string weights_by_mass(const Situation& situation) {
+  const Body& body = situation.scene.body;
+  const Vector middle = box_of(body).center();
+  std::string text;
+  situation.scene.conditions.visit([&](const BodyForce& one) {
+    const double value = one.value.evaluate(middle, situation.start + situation.duration);
+    if (!(std::abs(std::abs(value) - gravity) < alike_gravity)) return;
+    text += text_of("WARNING: ", one.value.path(), " is ", value,
+                    " N/m³, a force per volume: the weight of 1 m³ of block '", body.blocks[0].name, "' is ",
+                    gravity * body.blocks[0].material.density, " N; is it meant in m/s²?\n");
+  });
+  return text;
+}
+
 }  // namespace
 
 std::string outline(const Situation& situation) {
@@ -130,6 +159,10 @@ std::string improbable_materials(const Situation& situation) {
            << (is_elastomer ? "elastomers have 10 to 20,000" : "solids have 100 to 20,000")
            << ": are moduli in Pa (70 GPa are 70e9) and the density in kg/m³?\n";
     }
+    if (block.material.thermal_expansion > most_expansion) {
+      text << begin << "has a Thermal Expansion Coefficient of " << block.material.thermal_expansion
+           << " 1/K; solids have less than 1e-3: is it in 1/K (16.5 µm/(m K) are 16.5e-6)?\n";
+    }
     const double yield = yield_ratio(block.material);
     if (std::isfinite(yield) && yield > 0 && !(yield >= least_yield && yield <= most_yield)) {
       text << begin << "yields at " << yield
@@ -138,7 +171,8 @@ std::string improbable_materials(const Situation& situation) {
     const double hardens = hardening(block.material);
     if (hardens > 1e-12 && hardens < least_hardening) {
       text << begin << "hardens by " << hardens
-           << " of its yield stress until a plastic strain of 1, which is nothing: are both in Pa (50 MPa are 50e6)?\n";
+           << " of its yield stress until a plastic strain of 1, which is nothing: are both in Pa (50 MPa are "
+              "50e6)?\n";
     }
     return text.str();
   });
@@ -306,6 +340,11 @@ std::string improbable_temperatures_of(const MaterialBlock& block, const materia
          << flow_stress_at(metal, initial) / flow_stress_at(metal, reference)
          << " of its flow stress: are both in K (20 °C are 293 K)?\n";
   }
+  if (const materials::JohnsonCookSoftening* softening = softening_of(metal);
+      softening && softening->melting < least_melting) {
+    text << begin << " has a Melting Temperature of " << softening->melting
+         << " K; metals have more than 400 K: is it in K (tin melts at 505 K)?\n";
+  }
   const double heat = metal.heating.capacity / block.material.density;
   if (heat > 0 && !(heat >= least_heat && heat <= most_heat)) {
     text << begin << " has a Specific Heat of " << heat
@@ -339,6 +378,7 @@ std::string improbable_scales(const Situation& situation) {
   const auto [least, most] = wave_speeds(scene.body);
   std::ostringstream text;
   text.precision(4);
+  text << improbable_frictions(situation) << weights_by_mass(situation);
   if (!(size >= least_size && size <= most_size)) {
     text << "WARNING: the bodies are " << size << " m long: are lengths of the mesh in m?\n";
   } else if (!scene.quasi_static && size > long_for_waves && most * duration < size) {

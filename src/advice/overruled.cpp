@@ -14,6 +14,7 @@
 #include "setup/changes_in_time.hpp"
 #include "setup/found_points.hpp"
 #include "setup/periods.hpp"
+#include "topology/cell_edges.hpp"
 #include "topology/point_group.hpp"
 
 namespace strut {
@@ -195,6 +196,42 @@ void tell_scaled_ends(const Situation& situation, std::ostringstream& text) {
   });
 }
 
+// An end has the traction −ρ c v of waves that leave; whatever else stands at it in the state that the run starts from
+// is let go.
+void tell_standing_ends(const Situation& situation, std::ostringstream& text) {
+  // Of the mean stress of the body: on the outer points of a free end half a layer stands. Oblique waves leave a fifth.
+  constexpr double tells = 0.25, of_waves_too = 0.5;
+  const Body& body = situation.scene.body;
+  if (!situation.deck.start_from) return;
+  const auto stress = [&](int i) -> Tensor {
+    const Tensor R = body.points[i].rotation.tensor();
+    return R * to_tensor(body.points[i].stress) * R.transpose();
+  };
+  double mean = 0, volume = 0;
+  for (int i = 0; i < body.owned(); ++i)
+    mean += body.domain.volume(i) * body.points[i].stress.norm(), volume += body.domain.volume(i);
+  mean = body.domain.communicator.sum(mean) / body.domain.communicator.sum(volume);
+  situation.scene.conditions.visit([&](const NonReflectingEnd& end) {
+    double force = 0, area = 0, borne = 0;
+    for (const auto& drag : end.drags) {
+      const int i = drag.point;
+      const double h = edge_of_cell(body.domain, i, end.normal), here = body.domain.volume(i) / h;
+      const Vector v = body.velocity[i], along = v.dot(end.normal) * end.normal;
+      const Vector of_waves =
+          -0.5 * body.block_of(i).material.density * h * (drag.along * along + drag.across * (v - along));
+      const Vector traction = stress(i) * end.normal;
+      force += here * (traction - of_waves).norm(), borne += here * traction.norm(), area += here;
+    }
+    std::vector<double> sums = {force, borne, area};
+    body.domain.communicator.sum(sums);
+    if (!(sums[0] > tells * mean * sums[2]) || !(sums[0] > of_waves_too * sums[1])) return;
+    text << "WARNING: the non-reflecting end '" << situation.deck.conditions[end.index].name
+         << "' lets go at once of about " << sums[0]
+         << " N that stand at it in the state of Start From: it absorbs waves and bears nothing that rests; expected a "
+            "Body Force of that size on its points\n";
+  });
+}
+
 }  // namespace
 
 std::string held_ends(const Situation& situation) {
@@ -204,6 +241,7 @@ std::string held_ends(const Situation& situation) {
   std::ostringstream text;
   text.precision(3);
   tell_scaled_ends(situation, text);
+  tell_standing_ends(situation, text);
   for (const auto& [pair, found] : found_points_of_pairs(body, held_points_of_ends(deck, body.domain.cloud, held))) {
     text << "WARNING: '" << deck.conditions[pair[1]].name << "' holds " << found.count
          << " points of the non-reflecting end '" << deck.conditions[pair[0]].name

@@ -14,7 +14,7 @@ std::vector<double> thicknesses(const Domain& domain);
 // The fraction of bending stiffness that struts `thickness` spacings thick retain by correspondence, measured by
 // tests/reference/bench_thin_members (elements; mean gradient at a horizon of 1.75 spacings and of 3). 1 if unknown or
 // if nothing is lost. Quadratic correspondence: expected_error.hpp.
-double bending_stiffness_kept(double horizon, double thickness);
+double bending_stiffness_kept(Influence influence, double horizon, double thickness);
 
 // Young's modulus of bars of ordinary points, `thickness` spacings thick, relative to the material's, as measured;
 // linear between measurements. Horizon in spacings. 1 if the members are thicker than those measured.

@@ -111,8 +111,7 @@ std::string balance_of(const Ledger& ledger, const Body& body, bool steps) {
        << (ledger.gained > 0 && steps ? "unstable, or too" : "too")
        << " coarse in time (Watch > Balance Error). Likely causes: "
        << (steps ? "a Fixed dt above the critical time step, a load too sudden, contact, a tool with a Mass or one "
-                   "with friction that "
-                   "meets points with substeps (Subcycling)"
+                   "with friction that meets points with substeps (Subcycling)"
                  : "too few load steps (the work of each is that of the mean of the forces at its ends: one that jumps "
                    "from nothing errs most), a Tolerance too large")
        << (expands
@@ -236,8 +235,11 @@ void Monitor::check_undeclared(double time, const contact::Contact& contact) {
 
 void Monitor::check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools,
                           Steps steps) {
-  if (tools.empty() || time < next_tools_) return;
+  if (time < next_tools_) return;
   next_tools_ = time + pause();
+  if (!warned_[beyond_plane]) check_planes(time);
+  if (tools.empty()) return;
+  if (!warned_[beyond_tool]) check_sets_of_tools(time, conditions, tools);
   if (!warned_[meeting]) check_meeting(time, conditions, tools);
   if (warned_[crossing]) return;
   const std::vector<Vector> places = present_positions(body_.domain);
@@ -257,6 +259,72 @@ void Monitor::check_tools(double time, const Conditions& conditions, const std::
                                                 "steps, "
                                               : "; expected ",
                       "a finer mesh or a thicker tool"));
+  });
+}
+
+namespace {
+
+// Collective. How many points of all ranks have gone through a surface, and one of them; −1 on other ranks.
+struct Passed {
+  double points = 0;
+  int one = -1;
+};
+
+// `gap`(point, place): how far a place is in front of the surface, m, with the surface where it was in the mesh or, of
+// the present place, where it is now. Points have gone through if they were in front and are half a spacing behind.
+Passed passed_points(const Domain& domain, const auto& gap_in_mesh, const auto& gap_now) {
+  Passed passed;
+  for (int i = domain.owned; i-- > 0;) {
+    const double h = domain.cloud.spacings[i];
+    if (gap_in_mesh(i) > on_plane * h && gap_now(i) < -0.5 * h) ++passed.points, passed.one = i;
+  }
+  passed.points = domain.communicator.sum(passed.points);
+  if (domain.communicator.first_rank(passed.one >= 0) != domain.communicator.rank()) passed.one = -1;
+  return passed;
+}
+
+}  // namespace
+
+// Nothing but bonds across it keeps a body in front of a plane behind which its mirror image is.
+void Monitor::check_planes(double time) {
+  const Domain& domain = body_.domain;
+  for (const Mirror& mirror : domain.mirrors) {
+    const auto side = [&](int i) { return mirror.distance(domain.reference(i)) < 0 ? -1 : 1; };
+    const Passed passed = passed_points(
+        domain, [&](int i) { return std::abs(mirror.distance(domain.reference(i))); },
+        [&](int i) { return side(i) * mirror.distance(domain.current(i)); });
+    std::ostringstream text;
+    if (passed.one >= 0) {
+      text << at(time) << "points have gone through a Symmetry Plane, " << passed.points << " by now, as "
+           << locate(body_, passed.one)
+           << ". Contact does not see mirror images; expected a Rigid Plane there too, or the whole body";
+    }
+    if (passed.points > 0) return warn_once(beyond_plane, text.str());
+  }
+}
+
+void Monitor::check_sets_of_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools) {
+  const Domain& domain = body_.domain;
+  std::size_t n = 0;
+  conditions.visit([&](const RigidTool& tool) {
+    const std::string& name = tools[n++].name;
+    const bool has_all = !domain.communicator.any(static_cast<int>(tool.points.size()) < domain.owned);
+    if (warned_[beyond_tool] || has_all) return;
+    std::vector<char> stopped(domain.owned, 0);
+    for (const int i : tool.points) stopped[i] = 1;
+    const Vector offset = tool.offset(time);
+    const auto gap = [&](const Vector& place) { return surface(tool.shape, tool.nearest_image(domain, place)).gap; };
+    const Passed passed = passed_points(
+        domain, [&](int i) { return stopped[i] ? 0 : gap(domain.reference(i)); },
+        [&](int i) { return gap(domain.current(i) - offset); });
+    std::ostringstream text;
+    if (passed.one >= 0) {
+      text << at(time) << "the tool '" << name
+           << "' stops the points of its Node Set only: others have gone through its surface, " << passed.points
+           << " by now, as " << locate(body_, passed.one)
+           << ". Expected no Node Set, or one of all points that may meet it";
+    }
+    if (passed.points > 0) warn_once(beyond_tool, text.str());
   });
 }
 

@@ -41,8 +41,8 @@ class Monitor {
   void check_failed(double time);                            // points without stress in an equilibrium: warns once
   // Plastic work that load steps miss (J; energies.hpp), at the end of a run of equilibria.
   void check_plastic_work(const Ledger& ledger, double missed);
-  // Omissions of the deck, at some checks: material that passes through material without contact, and tools (named as
-  // in `tools`) between points that are bonded to each other.
+  // Omissions of the deck, at some checks: material that passes through material without contact, through a symmetry
+  // plane, or through a tool (named as in `tools`) that acts on others, and tools between points bonded to each other.
   void check_undeclared(double time, const contact::Contact& contact);
   void check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools,
                    Steps steps = Steps::of_time);
@@ -69,6 +69,8 @@ class Monitor {
     uncounted,
     soft_contact,
     fast_breaks,
+    beyond_plane,
+    beyond_tool,
     count
   };
   static constexpr double checks = 200;       // checks per run of energies, interpenetration and tools between points
@@ -80,6 +82,8 @@ class Monitor {
   bool is_silent(What what) const { return warned_[what] && !limits_.stops; }
   void warn_once(What what, const std::string& text);
   void warn(What what, const std::string& text);
+  void check_planes(double time);
+  void check_sets_of_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools);
   void check_meeting(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools);
   void warn_if_negative(What what, const char* name, double energy, const Ledger& ledger, const char* causes);
   void check_springs(double time);

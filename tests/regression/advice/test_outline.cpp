@@ -205,6 +205,8 @@ TEST(Improbable, TemperaturesOfAMaterialInCelsiusAreWarnedOf) {
       told_of_copper(softening("25", "1083")),
       {"softens from a Reference Temperature of 25 K on, which is -248.1 °C", "293 K it has 0.7467 of its flow"});
   EXPECT_EQ(told_of_copper(softening("298", "1356")).find("WARNING"), std::string::npos);
+  expect_told(told_of_copper(softening("293", "327")),
+              {"has a Melting Temperature of 327 K; metals have more than 400"});
   const std::string slope = key("Shear Modulus Slope", "4e-4");
   expect_told(told_of_copper(slope + key("Shear Modulus Temperature", "20")),
               {"Shear Modulus Temperature of 20 K, which"});
@@ -265,6 +267,23 @@ TEST(Cracks, OfAFractureEnergyAreGradualWherePointsCanSoften) {
     EXPECT_EQ(text.find(warning), std::string::npos);
   }
   expect_told(told(key("Stabilization", "Silling"), "1.75"), {warning});
+}
+
+TEST(Improbable, ExpansionFrictionAndWeightInOtherUnitsAreWarnedOf) {
+  const auto expands = [](const std::string& by) { return told_of_copper(key("Thermal Expansion Coefficient", by)); };
+  expect_told(expands("16.5e-3"), {"has a Thermal Expansion Coefficient of 0.0165 1/K; solids have less than 1e-3"});
+  EXPECT_EQ(expands("300e-6").find("solids have less"), std::string::npos);
+  const auto told = [](const std::string& friction, const std::string& load) {
+    Parts parts;
+    parts.conditions = along("weight", "Body Force", "all", "z", load) +
+                       section("floor", key("Type", "Rigid Plane") + key("Point", "0 0 0") + key("Normal", "0 0 1") +
+                                            key("Friction Coefficient", friction));
+    return told_of(parts);
+  };
+  expect_told(told("20", "-9.81"),
+              {"WARNING: a Friction Coefficient is 20; of solids it is 0 to 2",
+               "weight > Value is -9.81 N/m³, a force per volume: the weight of 1 m³ of block 'bar' is 87603.3 N"});
+  EXPECT_EQ(told("2", "-87603").find("WARNING"), std::string::npos);
 }
 
 TEST(Improbable, HeatsAndHardeningInOtherUnitsAreWarnedOf) {
@@ -684,6 +703,40 @@ TEST(Ends, ThatConditionsHoldAlongTheirNormalAreWarnedOf) {
   EXPECT_EQ(told("xy").find("waves are reflected"), std::string::npos) << "held across the normal";
 }
 
+// A bar under its weight w, per volume, stands on 16 mm²: 16e-6 w L N stand at its foot, less the weight of half a
+// layer.
+TEST(Ends, ThatLetGoOfWhatStandsAtThemAreToldOf) {
+  const RunFolder folder;
+  Parts parts;
+  const std::string weight = along("weight", "Body Force", "all", "z", "-1e8");
+  const auto told = [&](const std::string& name, const std::string& solver, const std::string& more) {
+    const std::string restart = section("Restart", key("Filename", (folder / (name + ".restart")).string()));
+    testing::internal::CaptureStdout();
+    EXPECT_TRUE(run(folder.write(name + ".xml", changed(changed(parts.text(), "<ParameterList>\n",
+                                                                "<ParameterList>\n" + restart + more),
+                                                        "\"Verlet\"", "\"" + solver + "\"")),
+                    folder.world, Start::anew));
+    return testing::internal::GetCapturedStdout();
+  };
+  parts.times = key("Final Time", "1"), parts.verlet = key("Number of Load Steps", "1");
+  parts.conditions = weight + along("held", "Prescribed Displacement", "foot", "z", "0");
+  told("stands", "QuasiStatic", "");
+  parts.times = key("Final Time", "1e-8"), parts.verlet.clear();
+  const std::string open =
+      section("open", key("Type", "Non-Reflecting End") + key("Node Set", "foot") + key("Normal", "0 0 -1"));
+  const std::string from = section("Start From", key("Checkpoint", (folder / "stands.restart").string()));
+  const std::string words = "WARNING: the non-reflecting end 'open' lets go at once of about ";
+  parts.conditions = weight + open;
+  const std::string lets_go = told("open", "Verlet", from);
+  parts.conditions = weight + changed(changed(open, "foot", "top"), "0 0 -1", "0 0 1");
+  const std::string free = told("free", "Verlet", from);
+  if (folder.world.rank() != 0) return;
+  const std::size_t at = lets_go.find(words);
+  ASSERT_NE(at, std::string::npos) << lets_go;
+  EXPECT_EQ(free.find("lets go"), std::string::npos) << free;
+  EXPECT_NEAR(std::stod(lets_go.substr(at + words.size())), 16e-6 * 4.5e-3 * 1e8, 0.5);
+}
+
 TEST(Ends, WhoseInertiaIsScaledAreWarnedOf) {
   const auto told = [](const std::string& step) {
     Parts parts;
@@ -705,7 +758,7 @@ TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
   const auto told = [&] {
     return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
   };
-  expect_told(told(), {"block 'bar': members are ", " spacings thick (4 volume/surface); bars so thick were found ",
+  expect_told(told(), {"block 'bar': members are ", " (4 and 2 volume/surface); bars so thick were found ",
                        " % too stiff in tension by the material model 'Elastic'"});
 }
 

@@ -379,6 +379,40 @@ TEST(Monitor, BodyThatFoldsThroughItselfIsToldOf) {
   if (folder.world.max(folds.said.find(words) != std::string::npos ? 1.0 : 0.0) == 0) ADD_FAILURE() << folds.said;
 }
 
+// A block that flies at a plane whose set holds another body's points: it goes through; by a set of its own it does
+// not.
+TEST(Monitor, PointsThatASetOfAToolLeavesOutAreToldOfWhereTheyGoThroughIt) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, 1e-3) + cubes(2, {9e-3, 0, 1e-3}, 3, 3, 3, 1e-3));
+  Parts parts = thrown_block("");
+  const std::string words = "the tool 'floor' stops the points of its Node Set only: others have gone through";
+  for (const std::string set : {"block_1", "block_2", "all"}) {
+    parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-100") +
+                       plane("floor", "Rigid Plane", set, "0 0 0", "0 0 1");
+    const Outcome o = outcome(folder, parts);
+    EXPECT_EQ(o.error, "");
+    const bool is_told = folder.world.max(o.said.find(words) != std::string::npos ? 1.0 : 0.0) > 0;
+    EXPECT_EQ(is_told, set == "block_1") << set << "\n" << o.said;
+  }
+}
+
+// It flies through the plane in which the other body ends; away from it nothing is told.
+TEST(Monitor, BodyThatGoesThroughASymmetryPlaneIsToldOfWithoutContact) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, 1e-3) + cubes(2, {9e-3, 0, 1e-3}, 3, 3, 3, 1e-3));
+  Parts parts = thrown_block("");
+  parts.node_sets = key("foot", "(z &lt; 1.0e-3) * (x &lt; 5.0e-3)");
+  const std::string words = "points have gone through a Symmetry Plane";
+  for (const std::string speed : {"-100", "100"}) {
+    parts.conditions = along("flight", "Initial Velocity", "block_2", "z", speed) +
+                       plane("s", "Symmetry Plane", "foot", "0 0 0", "0 0 1");
+    const Outcome o = outcome(folder, parts);
+    EXPECT_EQ(o.error, "");
+    const bool is_told = folder.world.max(o.said.find(words) != std::string::npos ? 1.0 : 0.0) > 0;
+    EXPECT_EQ(is_told, speed == "-100") << o.said;
+  }
+}
+
 // A blade between two columns of points goes between them, and no force tells; one of 1.6 spacings does not. Also
 // where columns are 4 mm apart, and layers 1 mm.
 TEST(Monitor, ToolBetweenPointsThatAreBondedIsToldOf) {
