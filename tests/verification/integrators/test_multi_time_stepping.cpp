@@ -211,7 +211,7 @@ TEST(MultiTimeStepping, AreOneForAllThatMoveDampedPoints) {
   advance_stress(body, 0, true);
   std::vector<std::uint8_t> damped(body.owned(), 0);
   for (int i = 0; i < body.owned(); ++i) damped[i] = body.domain.reference(i)[0] < h ? 1 : 0;
-  MultiTimeStepping().choose(body, 0.8, {0, 1}, {{}, damped});
+  MultiTimeStepping().choose(body, 0.8, {0, 1}, {{}, damped, {}});
   const int most = max_level(body);
   EXPECT_GT(most, 1);
   const auto below_it = [&](int i) {
