@@ -22,7 +22,7 @@ const OptionalKey<double> fracture_energy(
      .meaning =
          "G_c of a flat cut through a lattice of the block's spacing; s_c follows. Without QuasiStatic, "
          "elastic solids by quadratic correspondence, or by the mean gradient with a horizon below two spacings, crack "
-         "as by 'Cohesive Crack', since one s_c would not take G_c."});
+         "as by 'Cohesive Crack'."});
 
 const OptionalKey<double> critical_bond_energy(
     {.name = "Critical Bond Energy",
