@@ -131,7 +131,7 @@ def impact():
                 section(f"flight {axis}", keys(Type="Initial Velocity", Coordinate=axis, Node_Set="all", Value=speed))
                 for axis, speed in (("x", "300*z"), ("z", "-150"))
             ),
-            plane("wall", 0.0, 1),
+            plane("wall", -0.2 * SPACING, 1),  # a foot that it rubs from the start on would have no substeps
             plane("punch", 13.62 * SPACING + 2 * GAP, -1, Mass=1e5 * SPACING**3, Speed_Z=-160.0),
         ),
         section("Solver", keys(Final_Time=1.5e-4)),
