@@ -263,6 +263,20 @@ TEST(Pulses, ShorterThanSamplesOfARunAreTold) {
               {"WARNING: Boundary Conditions > a > Value: jumps by 0.0001 m"}, "a displacement");
 }
 
+// The third block is a grain of one point, which is dropped. Without substeps the step is that of the stiffest block.
+TEST(Pulses, AreToldBesideABlockWithoutPoints) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 4, 1e-3) + cubes(2, {9e-3, 0, 0}, 1, 1, 1, 1e-3));
+  Parts parts = block("");
+  parts.mesh_type = "Text File", parts.mesh_file = (folder / "points.txt").string(), parts.degenerate = "Drop Any";
+  parts.verlet = key("Subcycling", "false");
+  const std::string pulse = "(t &gt; 2e-6)*(t &lt; 4e-6)";
+  parts.conditions = along("a", "Body Force", "block_1", "z", pulse + "*1e9");
+  expect_said(said_of(parts).warnings, {"jumps twice within 2e-06 s"}, "a load");
+  parts.conditions = displacement("a", "block_1", "z", pulse + "*1e-4");
+  expect_said(said_of(parts).warnings, {"jumps by 0.0001 m"}, "a displacement");
+}
+
 // A load of equilibria that the explicit steps begin without jumps once.
 TEST(Pulses, ThatActedBeforeTheStepsAreNone) {
   const RunFolder folder;
@@ -321,7 +335,8 @@ TEST(Values, BesideTheLineBetweenLoadStepsAreToldIfTheRateCounts) {
     return said_of(parts, Loading::slow).warnings;
   };
   const std::string ramp = "table(t, 0, 0, 1e-8, 1e-4, 5e-6, 1e-4)";
-  expect_said(warnings("Power Law", ramp), {"a > Value: reaches 0.0001 at t = 1e-08 s", "may depend on its rate"}, ramp);
+  expect_said(warnings("Power Law", ramp), {"a > Value: reaches 0.0001 at t = 1e-08 s", "may depend on its rate"},
+              ramp);
   EXPECT_EQ(warnings("None", ramp).find("between two load steps"), std::string::npos);
   for (const char* value : {"20*t", "table(t, 0, 0, 1e-6, 1e-4, 5e-6, 1e-4)", "1e-4*sin(6.2831853e5*t)"})
     EXPECT_EQ(warnings("Power Law", value).find("between two load steps"), std::string::npos) << value;
