@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "base/math/time_integral.hpp"
 #include "topology/bounding_box.hpp"
@@ -83,19 +84,25 @@ std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end) {
   return jumps;
 }
 
-// By its growth toward this time: a root's inverse grows by a factor of 32.
+// By its growth toward this time, again and again: a pulse ceases to grow, and a root's inverse grows by 2.8 each time.
 bool is_pole(const OfTime& of_time, double at, double apart) {
-  constexpr double nearer = 1024, growth = 64;
-  const double near = std::max(1e-6 * apart, 1e7 * std::numeric_limits<double>::epsilon() * std::abs(at));
+  constexpr double nearer = 8, growth = 4;
   const auto beside = [&](double away) {
     return std::fmax(std::abs(of_time(at - away)), std::abs(of_time(at + away)));
   };
-  const double next_to_it = beside(near / nearer);
-  return next_to_it > growth * beside(near) || std::isinf(next_to_it);
+  double away = std::max(1e-6 * apart, 1e7 * std::numeric_limits<double>::epsilon() * std::abs(at));
+  double size = beside(away);
+  for (int n = 0; n < 4 && !std::isinf(size); ++n) {
+    away /= nearer;
+    const double before = std::exchange(size, beside(away));
+    if (!(size > growth * before)) return false;
+  }
+  return true;
 }
 
 // By ternary search, and where the value may turn, as a divisor does.
 std::optional<double> pole_of(const OfTime& of_time, double start, double end) {
+  if (!std::isfinite(of_time(start))) return std::nullopt;  // an error if a point is there
   const double apart = (end - start) / samples_in_a_run;
   const auto size = [&of_time](double t) { return std::abs(of_time(t)); };
   double highest = start;

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "base/math/time_integral.hpp"
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "setup/blocks.hpp"
 #include "setup/changes_in_time.hpp"
@@ -83,7 +84,7 @@ std::vector<Function> straining_values(const deck::Condition& condition) {
   return {};
 }
 
-// The time that a wave takes for one spacing of each block, s.
+// The time that a wave takes for one spacing of each block, s; 0 of a block without points.
 std::vector<double> wave_times(const Body& body) {
   std::vector<double> times;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
@@ -100,8 +101,9 @@ double largest_at(const std::vector<double>& of_blocks, const std::vector<int>& 
 }
 
 // About the longest step of some points, s. `by_waves`: the largest of their wave times, which only substeps reach.
-double longest_step(const deck::Solver& solver, const std::vector<double>& times, double by_waves) {
+double longest_step(const deck::Solver& solver, std::vector<double> times, double by_waves) {
   if (solver.fixed_dt) return *solver.fixed_dt;
+  std::erase(times, 0);
   return std::max(solver.subcycling ? by_waves : std::ranges::min(times), solver.scaled_dt.value_or(0));
 }
 
@@ -162,7 +164,7 @@ void check_poles(const deck::Deck& deck, const PointsOfConditions& points, const
       });
       if (!pole) continue;
       std::ostringstream text;
-      text << value.path() << ": '" << value.text() << "' goes to infinity at t = " << *pole
+      text << value.path() << ": '" << value.text() << "' goes to infinity at t = " << to_text(*pole)
            << " s, so that it has no integral over time; expected a value that is finite throughout the run";
       problems.add(text.str());
     }
