@@ -57,6 +57,7 @@ void expect_named(const Case& one, bool slowly, const std::string& frequency) {
        {"Boundary Conditions > " + one.path + ": '", std::string(" is -nan at ("), std::string("t = 3")}) {
     EXPECT_NE(error.find(part), std::string::npos) << part << (slowly ? " slowly" : "") << " in:\n" << error;
   }
+  EXPECT_EQ(error.find(" is -nan"), error.rfind(" is -nan")) << "told by one rank: " << error;
 }
 
 // Whether the ledger is looked at in each step, or never before the end.
