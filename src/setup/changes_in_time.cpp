@@ -16,15 +16,13 @@ constexpr int halvings = 40;  // bisections between two samples that distinguish
 
 // The jump of a function between `from` and `to`, by halving the interval toward its largest change: the change over a
 // steep slope vanishes, that of a jump stays. With a `length` (s): the change over the part of this length in which the
-// function changes most.
-Jump jump_between(const OfTime& of_time, double from, double to, double length = 0) {
+// function changes most. Ends at a part whose halves change by less than `least`.
+Jump jump_between(const OfTime& of_time, double from, double to, double length = 0, double least = 0) {
   for (int n = 0; n < halvings && to - from > length; ++n) {
-    const double middle = 0.5 * (from + to);
-    if (std::abs(of_time(middle) - of_time(from)) > std::abs(of_time(to) - of_time(middle))) {
-      to = middle;
-    } else {
-      from = middle;
-    }
+    const double middle = 0.5 * (from + to), at_middle = of_time(middle);
+    const double first = std::abs(at_middle - of_time(from)), second = std::abs(of_time(to) - at_middle);
+    if (std::max(first, second) < least) return {to, std::max(first, second)};
+    (first > second ? to : from) = middle;
   }
   return {to, std::abs(of_time(to) - of_time(from))};
 }
@@ -78,7 +76,7 @@ std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end) {
   if (std::abs(samples.front()) > 0.1 * largest) jumps.push_back({start, std::abs(samples.front())});
   for (std::size_t k = 1; k < times.size(); ++k) {
     if (!(std::abs(samples[k] - samples[k - 1]) > 0.1 * largest)) continue;
-    const Jump jump = jump_between(of_time, times[k - 1], times[k]);
+    const Jump jump = jump_between(of_time, times[k - 1], times[k], 0, 0.05 * largest);
     if (jump.length > 0.1 * largest) jumps.push_back(jump);
   }
   return jumps;

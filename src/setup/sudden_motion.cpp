@@ -1,6 +1,7 @@
 #include "setup/sudden_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -251,14 +252,32 @@ enum class Counts { as_it_is, by_change, by_integral };
 
 // Values of a condition at and between load steps.
 struct OverLoadSteps {
-  double largest = 0;         // at load steps
-  double zero = 0, most = 0;  // at the start, if changes count; anywhere
+  double largest = 0;            // at load steps
+  double zero = 0, most = 0;     // at the start, if changes count; anywhere
+  std::array<double, 2> ways{};  // two integrals over one load step that differ, if any do
   Missed missed;
 };
+
+// The integral from one time to another as the run finds it, and by more samples, if this differs by a hundredth of all
+// that the value does: it then has pulses that few samples miss, or turns more often than is looked at.
+std::array<double, 2> two_integrals(const OfTime& of_time, double from, double to) {
+  constexpr int parts = 512;
+  const std::vector<double> times = telling_times(of_time.value, of_time.X, from, to, parts);
+  double sum = 0, size = 0;
+  for (std::size_t n = 1; n < times.size(); ++n) {
+    const double part = (times[n] - times[n - 1]) * of_time(std::midpoint(times[n - 1], times[n]));
+    sum += part, size += std::abs(part);
+  }
+  if (!std::isfinite(sum)) return {};  // nor is it an error where no point is: the integral stores such values
+  const double of_run = time_integral(of_time.value, of_time.X, from, to);
+  if (std::abs(sum - of_run) > 0.01 * size) return {of_run, sum};
+  return {};
+}
 
 OverLoadSteps over_load_steps(const Function& value, const Where& where, const deck::Solver& solver, Counts counts,
                               bool rate_counts) {
   constexpr int most_between = 16, most_samples = 100000;  // of a load step and of a run
+  constexpr int most_integrals = 300;
   const int load_steps = solver.quasi_static->load_steps;
   const int between = std::clamp(most_samples / load_steps, 2, most_between);
   const double start = solver.initial_time, duration = solver.final_time - start;
@@ -276,6 +295,8 @@ OverLoadSteps over_load_steps(const Function& value, const Where& where, const d
         all.push_back(counts == Counts::by_integral ? position : of_time(times[n]) - found.zero);
         if (std::isfinite(all.back())) found.most = std::max(found.most, std::abs(all.back()));
       }
+      if (counts == Counts::by_integral && load_steps <= most_integrals && found.ways[0] == found.ways[1])
+        found.ways = two_integrals(of_time, times.front(), times.back());
       found.largest = std::max({found.largest, std::abs(all.front()), std::abs(all.back())});
       take_missed(all, times, rate_counts, found.missed);
     }
@@ -303,8 +324,14 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
     std::ranges::copy(sampled_values(condition), std::back_inserter(values));
     for (const Function& value : values) {
       if (!value.depends_on_time()) continue;
-      const auto [largest, zero, most, missed] =
+      const auto [largest, zero, most, ways, missed] =
           over_load_steps(value, where(points[c], body), deck.solver, counts, rate_counts);
+      if (ways[0] != ways[1]) {
+        text += text_of("WARNING: ", value.path(),
+                        ": has pulses or turns that are too many for one load step, whose way is ", ways[0],
+                        " m by the samples of the run, and ", ways[1],
+                        " m by sixteen times as many; expected more load steps\n");
+      }
       if (!(missed.beyond > reported * largest + round_off * (std::abs(zero) + most))) continue;
       constexpr const char* what[] = {": reaches ", ": changes by ", ": its integral reaches "};
       text += text_of("WARNING: ", value.path(), what[static_cast<int>(counts)], missed.value, " at t = ", missed.time,

@@ -290,6 +290,8 @@ TEST(Pulses, ThatActedBeforeTheStepsAreNone) {
   EXPECT_EQ(warnings.find("jumps twice"), std::string::npos) << warnings;
 }
 
+const std::string to_and_fro = "100*sin(3.14159265358979e6*4*t)";
+
 // Load steps at 0.5, 1, … µs, ten of them.
 TEST(Values, BetweenLoadStepsAreTold) {
   for (const char* value :
@@ -307,7 +309,6 @@ TEST(Values, BetweenLoadStepsAreTold) {
     EXPECT_EQ(warnings.find("between two load steps"), std::string::npos) << value;
   }
   // The integral of a velocity counts.
-  const std::string to_and_fro = "100*sin(3.14159265358979e6*4*t)";
   expect_said(said_of(block(velocity("a", "foot", "z", to_and_fro)), Loading::slow).warnings,
               {"a > Value: its integral reaches", "between two load steps"}, to_and_fro);
   for (const char* value : {"5*t*(4e-6 - t)", "table(t, 2.1e-6, 0, 2.2e-6, 100, 2.3e-6, 0)"}) {
@@ -322,6 +323,23 @@ TEST(Values, BetweenLoadStepsAreTold) {
   for (const auto& condition : {heat("293 + 50*" + slow), sides("1 + 1e-3*" + slow)}) {
     EXPECT_EQ(said_of(block(condition), Loading::slow).warnings.find("between two load steps"), std::string::npos);
   }
+}
+
+// 1600 waves that pass 18 rows each, and 50 pulses of 3 % of a wave. All rows of a long table count.
+TEST(Values, ThatDoTooMuchInALoadStepAreTold) {
+  const std::string waves = "1e-3*table(sin(2e9*t), -0.8, 0, -0.6, 1, -0.4, 0, -0.2, 1, 0, 0, 0.2, 1, 0.4, 0, 0.6, 1)";
+  const std::string pulses = "1e-4*(sin(6.2831853e7*t) &gt; 0.995)";
+  std::string table = "table(t";
+  for (int n = 0; n < 30000; ++n) table += ", " + std::to_string(n) + "e-10, " + std::to_string(n % 7 % 2) + "e-3";
+  const auto warnings = [](const std::string& value, const std::string& load_steps) {
+    return said_of(block(velocity("a", "foot", "z", value)), Loading::slow, key("Number of Load Steps", load_steps))
+        .warnings;
+  };
+  const std::string told = "WARNING: Boundary Conditions > a > Value: has pulses or turns that are too many";
+  for (const std::string& value : {waves, pulses}) expect_said(warnings(value, "1"), {told}, value);
+  for (const std::string& value : {waves, pulses}) EXPECT_EQ(warnings(value, "50").find(told), std::string::npos);
+  for (const std::string& value : {table + ")", std::string("1e-6/sqrt(abs(t - 2.00123e-6))"), to_and_fro})
+    EXPECT_EQ(warnings(value, "1").find(told), std::string::npos);
 }
 
 // A ramp that ends within a load step: its rate is not that of the step.
