@@ -252,9 +252,9 @@ enum class Counts { as_it_is, by_change, by_integral };
 
 // Values of a condition at and between load steps.
 struct OverLoadSteps {
-  double largest = 0;            // at load steps
-  double zero = 0, most = 0;     // at the start, if changes count; anywhere
-  std::array<double, 2> ways{};  // two integrals over one load step that differ, if any do
+  double largest = 0;                     // at load steps
+  double zero = 0, most = 0;              // at the start, if changes count; anywhere
+  std::array<double, 2> displacements{};  // two integrals over one load step that differ, if any do
   Missed missed;
 };
 
@@ -295,8 +295,9 @@ OverLoadSteps over_load_steps(const Function& value, const Where& where, const d
         all.push_back(counts == Counts::by_integral ? position : of_time(times[n]) - found.zero);
         if (std::isfinite(all.back())) found.most = std::max(found.most, std::abs(all.back()));
       }
-      if (counts == Counts::by_integral && load_steps <= most_integrals && found.ways[0] == found.ways[1])
-        found.ways = two_integrals(of_time, times.front(), times.back());
+      if (counts == Counts::by_integral && load_steps <= most_integrals &&
+          found.displacements[0] == found.displacements[1])
+        found.displacements = two_integrals(of_time, times.front(), times.back());
       found.largest = std::max({found.largest, std::abs(all.front()), std::abs(all.back())});
       take_missed(all, times, rate_counts, found.missed);
     }
@@ -324,12 +325,12 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
     std::ranges::copy(sampled_values(condition), std::back_inserter(values));
     for (const Function& value : values) {
       if (!value.depends_on_time()) continue;
-      const auto [largest, zero, most, ways, missed] =
+      const auto [largest, zero, most, displacements, missed] =
           over_load_steps(value, where(points[c], body), deck.solver, counts, rate_counts);
-      if (ways[0] != ways[1]) {
+      if (displacements[0] != displacements[1]) {
         text += text_of("WARNING: ", value.path(),
-                        ": has pulses or turns that are too many for one load step, whose way is ", ways[0],
-                        " m by the samples of the run, and ", ways[1],
+                        ": has pulses or turns that are too many for one load step, whose displacement is ",
+                        displacements[0], " m by the samples of the run, and ", displacements[1],
                         " m by sixteen times as many; expected more load steps\n");
       }
       if (!(missed.beyond > reported * largest + round_off * (std::abs(zero) + most))) continue;
