@@ -22,17 +22,15 @@ constexpr Check* checks[] = {  // in the order of their warnings
 Situation situation_of(const deck::Deck& deck, const Scene& scene) {
   const PointCloud& cloud = scene.body.domain.cloud;
   const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
-  Situation situation{deck,
-                      scene,
-                      start,
-                      duration,
-                      interactions_of(deck, cloud),
-                      mean_spacings(cloud, scene.body.domain.communicator),
-                      trajectories(scene, start, duration),
-                      thicknesses(scene.body.domain),
-                      unevenness_of_lattices(scene.body)};
-  set_surface_laws(scene.body, situation.interactions);
-  return situation;
+  return {deck,
+          scene,
+          start,
+          duration,
+          interactions_of(deck, scene.body),
+          mean_spacings(cloud, scene.body.domain.communicator),
+          trajectories(scene, start, duration),
+          thicknesses(scene.body.domain),
+          unevenness_of_lattices(scene.body)};
 }
 
 }  // namespace

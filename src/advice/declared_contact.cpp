@@ -306,13 +306,16 @@ std::string surfaces_at_seams(const Situation& situation) {
 
 std::string contact_at_mirrors(const Situation& situation) {
   const Domain& domain = situation.scene.body.domain;
-  std::string text;
+  std::set<int> concerned;  // a plane has a mirror for each body
   for (const Mirror& mirror : domain.mirrors) {
     const auto concerns = [&](const contact::Interaction& one) {
       return domain.blocks[one.first].body == mirror.body || domain.blocks[one.second].body == mirror.body;
     };
-    if (std::none_of(situation.interactions.begin(), situation.interactions.end(), concerns)) continue;
-    text += "WARNING: Boundary Conditions > " + situation.deck.conditions[mirror.number].name +
+    if (std::ranges::any_of(situation.interactions, concerns)) concerned.insert(mirror.number);
+  }
+  std::string text;
+  for (const int number : concerned) {
+    text += "WARNING: Boundary Conditions > " + situation.deck.conditions[number].name +
             ": contact does not see mirror images: bodies that come to the plane from one side go through it, and "
             "contact within a contact radius of it is that of an edge\n";
   }

@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "conditions/crossing.hpp"
 #include "contact/interpenetration.hpp"
+#include "mechanics/steepness.hpp"
 
 namespace strut {
 
@@ -522,6 +523,31 @@ void Monitor::check_soft_contact(const Ledger& ledger, const contact::Contact& c
               "bodies that press on each other are too soft by it. For 5 % expected ",
               steps == Steps::of_load ? "" : "a finer mesh, or equilibria (Solver > QuasiStatic) with ",
               "a Stiffness Factor ", stiffer, " times as large (Contact > Models)"));
+}
+
+void Monitor::check_inverted(double time) {
+  constexpr double flat = 20;  // flatness: two layers have 1.3; F across a plane of neighbors is anything
+  if (warned_[inverted]) return;
+  int point = -1;
+  for (const MaterialBlock& block : body_.blocks) {
+    if (!block.is_ordinary()) continue;
+    const auto is_inverted = [&](int i) {
+      return !body_.has_lost_bonds(i) && body_.points[i].deformation_gradient.determinant() <= 0 &&
+             flatness(body_.domain, i) < flat;
+    };
+    const auto found = std::ranges::find_if(block.points, is_inverted);
+    if (point < 0 && found != block.points.end()) point = *found;
+  }
+  if (!body_.domain.communicator.any(point >= 0)) return;
+  std::ostringstream text;
+  if (point >= 0) {
+    text << at(time)
+         << "a point of an ordinary solid is turned inside out, and the run goes on, for only the other "
+            "laws fail there (Watch > Inverted Points): its Jacobian is "
+         << body_.points[point].deformation_gradient.determinant() << ": " << locate(body_, point)
+         << ". Likely causes: a load or a motion too large or too sudden, bodies that fold without Self Contact";
+  }
+  warn_once(inverted, of_first(body_, point >= 0, text.str()));
 }
 
 // The largest stretch of a point with all its bonds is at most the norm of F.

@@ -34,6 +34,8 @@ class Monitor {
   void check_interpenetration(double time, const contact::Contact& contact);  // interpenetration of bodies
   // Deformation that the points do not resolve, after a step with diagnostics: warns once, never ends a run.
   void check_resolution(const Ledger& ledger, bool last);
+  // Points of ordinary solids that are turned inside out, after a step with diagnostics: warns once.
+  void check_inverted(double time);
   // Collective. Contact between surfaces that gives way so much that bodies pressed on each other are too soft: told
   // once in a run, at its end.
   void check_soft_contact(const Ledger& ledger, const contact::Contact& contact, bool last, Steps steps);
@@ -71,6 +73,7 @@ class Monitor {
     fast_breaks,
     beyond_plane,
     beyond_tool,
+    inverted,
     count
   };
   static constexpr double checks = 200;       // checks per run of energies, interpenetration and tools between points

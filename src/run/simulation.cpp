@@ -228,6 +228,7 @@ void Run::Parts::watch_step() {
     const Ledger now = ledger ? *ledger : solver.ledger();
     monitor->check_energy(now, last);
     monitor->check_resolution(now, last);
+    monitor->check_inverted(now.time);
     monitor->check_soft_contact(now, solver.contact(), last, Monitor::Steps::of_time);
     if (last && solver.fracture()) monitor->check_breaks(*solver.fracture(), solver.time());
   }
@@ -241,6 +242,7 @@ void Run::Parts::watch_equilibrium() {
   monitor->check_soft_contact(ledger, equilibria->contact(), last, Monitor::Steps::of_load);
   if (last) monitor->check_plastic_work(ledger, equilibria->missed_plastic_work());
   monitor->check_failed(time());
+  monitor->check_inverted(time());
   watch_bodies(*equilibria);
 }
 

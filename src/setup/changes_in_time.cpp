@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "base/math/time_integral.hpp"
 #include "topology/bounding_box.hpp"
@@ -15,15 +16,13 @@ constexpr int halvings = 40;  // bisections between two samples that distinguish
 
 // The jump of a function between `from` and `to`, by halving the interval toward its largest change: the change over a
 // steep slope vanishes, that of a jump stays. With a `length` (s): the change over the part of this length in which the
-// function changes most.
-Jump jump_between(const OfTime& of_time, double from, double to, double length = 0) {
+// function changes most. Ends at a part whose halves change by less than `least`.
+Jump jump_between(const OfTime& of_time, double from, double to, double length = 0, double least = 0) {
   for (int n = 0; n < halvings && to - from > length; ++n) {
-    const double middle = 0.5 * (from + to);
-    if (std::abs(of_time(middle) - of_time(from)) > std::abs(of_time(to) - of_time(middle))) {
-      to = middle;
-    } else {
-      from = middle;
-    }
+    const double middle = 0.5 * (from + to), at_middle = of_time(middle);
+    const double first = std::abs(at_middle - of_time(from)), second = std::abs(of_time(to) - at_middle);
+    if (std::max(first, second) < least) return {to, std::max(first, second)};
+    (first > second ? to : from) = middle;
   }
   return {to, std::abs(of_time(to) - of_time(from))};
 }
@@ -77,25 +76,31 @@ std::vector<Jump> jumps_of(const OfTime& of_time, double start, double end) {
   if (std::abs(samples.front()) > 0.1 * largest) jumps.push_back({start, std::abs(samples.front())});
   for (std::size_t k = 1; k < times.size(); ++k) {
     if (!(std::abs(samples[k] - samples[k - 1]) > 0.1 * largest)) continue;
-    const Jump jump = jump_between(of_time, times[k - 1], times[k]);
+    const Jump jump = jump_between(of_time, times[k - 1], times[k], 0, 0.05 * largest);
     if (jump.length > 0.1 * largest) jumps.push_back(jump);
   }
   return jumps;
 }
 
-// By its growth toward this time: a root's inverse grows by a factor of 32.
+// By its growth toward this time, again and again: a pulse ceases to grow, and a root's inverse grows by 2.8 each time.
 bool is_pole(const OfTime& of_time, double at, double apart) {
-  constexpr double nearer = 1024, growth = 64;
-  const double near = std::max(1e-6 * apart, 1e7 * std::numeric_limits<double>::epsilon() * std::abs(at));
+  constexpr double nearer = 8, growth = 4;
   const auto beside = [&](double away) {
     return std::fmax(std::abs(of_time(at - away)), std::abs(of_time(at + away)));
   };
-  const double next_to_it = beside(near / nearer);
-  return next_to_it > growth * beside(near) || std::isinf(next_to_it);
+  double away = std::max(1e-6 * apart, 1e7 * std::numeric_limits<double>::epsilon() * std::abs(at));
+  double size = beside(away);
+  for (int n = 0; n < 4 && !std::isinf(size); ++n) {
+    away /= nearer;
+    const double before = std::exchange(size, beside(away));
+    if (!(size > growth * before)) return false;
+  }
+  return true;
 }
 
 // By ternary search, and where the value may turn, as a divisor does.
 std::optional<double> pole_of(const OfTime& of_time, double start, double end) {
+  if (!std::isfinite(of_time(start))) return std::nullopt;  // an error if a point is there
   const double apart = (end - start) / samples_in_a_run;
   const auto size = [&of_time](double t) { return std::abs(of_time(t)); };
   double highest = start;

@@ -1,6 +1,8 @@
 #include "setup/conditions.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -10,6 +12,7 @@
 #include "base/parallel/communicator.hpp"
 #include "base/text.hpp"
 #include "setup/contradictions.hpp"
+#include "setup/found_points.hpp"
 #include "setup/open_ends.hpp"
 #include "setup/periods.hpp"
 #include "setup/sudden_motion.hpp"
@@ -29,9 +32,23 @@ struct Times {
   double mesh = 0, begin = 0;
 };
 
-void check_values(const std::vector<Function>& values, const std::vector<int>& points, double t, const Domain& domain) {
-  for (const Function& value : values) {
-    for (const int i : points) finite_value(value, domain.reference(i), t);
+// Collective. Adds a problem for each value of `conditions` (indices) that is no number somewhere at the time t, s.
+void check_values(const deck::Deck& deck, const std::vector<int>& conditions, const PointsOfConditions& points,
+                  double t, const Body& body, deck::Problems& problems) {
+  std::vector<Function> values;
+  PointsOfConditions wrong;
+  for (const int c : conditions) {
+    const auto values_of = [](const auto& prototype) { return prototype.values_at_points(); };
+    for (const Function& value : std::visit(values_of, deck.conditions[c].kind)) {
+      const auto is_number = [&](int i) { return std::isfinite(value.evaluate(body.domain.reference(i), t)); };
+      values.push_back(value), wrong.push_back(points[c]);
+      std::erase_if(wrong.back(), is_number);
+    }
+  }
+  const std::vector<FoundPoints> found = found_points(body, wrong);
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const Vector& X = found[n].one;
+    if (found[n].count > 0) problems.add(values[n].describe(X[0], X[1], X[2], t, values[n].evaluate(X, t)));
   }
 }
 
@@ -150,17 +167,12 @@ std::string check_next_steps(const deck::Deck& deck, const PointsOfConditions& p
                              Conditions& ends, deck::Problems& problems) {
   deck::Deck next = deck;
   next.solver = *deck.next_solver;
-  for (std::size_t c = 0; c < points.size(); ++c) {
-    const auto look = [&]<class Type>(const Type& prototype) {
-      check_values(prototype.values_at_points(), points[c], next.solver.initial_time, body.domain);
-      if constexpr (std::is_same_v<Type, NonReflectingEnd>)
-        ends.add(prototype.on(points[c], static_cast<int>(c), body));
-    };
-    try {
-      std::visit(look, deck.conditions[c].kind);
-    } catch (const Error& error) {
-      problems.add(error.what());
-    }
+  std::vector<int> all(points.size());
+  std::iota(all.begin(), all.end(), 0);
+  check_values(deck, all, points, next.solver.initial_time, body, problems);
+  for (const int c : all) {
+    const auto* end = std::get_if<NonReflectingEnd>(&deck.conditions[c].kind);
+    if (end) ends.add(end->on(points[c], c, body));
   }
   check_open_ends(next, ends, body, problems);
   check_poles(next, points, body, problems);
@@ -194,7 +206,6 @@ std::string sudden_expansion(const deck::Deck& deck, Body& body) {
 void add_condition(const deck::Condition& condition, int index, std::vector<int> points, const SharedPoints& shared,
                    const Times& times, Scene& scene) {
   const auto add = [&]<class Type>(const Type& prototype) {
-    check_values(prototype.values_at_points(), points, times.begin, scene.body.domain);
     if constexpr (std::is_same_v<Type, SymmetryPlane>) {
       put(prototype, std::move(points), index, shared, scene);
     } else {
@@ -250,15 +261,15 @@ void add_conditions(const deck::Deck& deck, double mesh_time, Scene& scene, cons
     const auto* plane = std::get_if<SymmetryPlane>(&deck.conditions[c].kind);
     if (plane) points[c] = plane->on(std::move(points[c]), static_cast<int>(c), scene.body).points;
   }
-  const SharedPoints shared = shared_points(deck, points);
+  std::vector<int> begun;
   for (int index = 0; index < static_cast<int>(deck.conditions.size()); ++index) {
-    if (deck.next_solver && needs_inertia(deck.conditions[index])) continue;  // begins with the explicit steps
-    try {
-      add_condition(deck.conditions[index], index, points[index], shared, times, scene);
-    } catch (const Error& error) {
-      problems.add(error.what());
-    }
+    const bool begins_with_steps = deck.next_solver && needs_inertia(deck.conditions[index]);
+    if (!begins_with_steps) begun.push_back(index);
   }
+  check_values(deck, begun, points, times.begin, scene.body, problems);
+  raise_together(communicator, problems.text(deck.file.string()));
+  const SharedPoints shared = shared_points(deck, points);
+  for (const int index : begun) add_condition(deck.conditions[index], index, points[index], shared, times, scene);
   set_reference_temperatures(scene.body, times.mesh);  // points have not expanded in the mesh
   if (displaces) {
     if (!deck.start_from)

@@ -43,18 +43,22 @@ std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const 
   return interactions;
 }
 
-void set_surface_laws(const Body& body, std::vector<contact::Interaction>& interactions) {
+std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const Body& body) {
+  const auto spacing = [&body](int block) { return body.domain.blocks[block].spacing; };  // 0 without points
   const auto modulus = [&body](int block) {
     return materials::moduli_of(body.blocks[block].material.law).longitudinal();
   };
+  std::vector<contact::Interaction> interactions = interactions_of(deck, body.domain.cloud);
+  std::erase_if(interactions, [&](const auto& one) { return spacing(one.first) == 0 || spacing(one.second) == 0; });
   for (contact::Interaction& one : interactions) {
     auto* law = std::get_if<contact::SurfaceLaw>(&one.model.law);
     if (!law) continue;
-    const double a = body.domain.blocks[one.first].spacing, b = body.domain.blocks[one.second].spacing;
+    const double a = spacing(one.first), b = spacing(one.second);
     law->modulus = 2 / (1 / modulus(one.first) + 1 / modulus(one.second));
     law->radius = contact::reach_in_spacings * std::max(a, b);
     law->spacing = 0.5 * (a + b);
   }
+  return interactions;
 }
 
 }  // namespace strut

@@ -16,7 +16,7 @@ void check_interactions(const deck::Deck& deck, const PointCloud& cloud, deck::P
 // Interactions of blocks: first the named ones, then all other pairs if an interaction names none.
 std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const PointCloud& cloud);
 
-// Sets the data of both bodies in contact laws between surfaces: stiffness and spacing.
-void set_surface_laws(const Body& body, std::vector<contact::Interaction>& interactions);
+// Those of blocks that have points, with the data of both bodies in laws between surfaces: stiffness and spacing.
+std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const Body& body);
 
 }  // namespace strut

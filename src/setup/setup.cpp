@@ -65,9 +65,7 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weigh
 }
 
 void add_contact(const deck::Deck& deck, Scene& scene) {
-  std::vector<contact::Interaction> interactions = interactions_of(deck, scene.body.domain.cloud);
-  set_surface_laws(scene.body, interactions);
-  scene.contact = contact::Contact(interactions, scene.body.domain);
+  scene.contact = contact::Contact(interactions_of(deck, scene.body), scene.body.domain);
 }
 
 // The same body for the steps of the second solver, without conditions.

@@ -1,6 +1,7 @@
 #include "setup/sudden_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -10,6 +11,7 @@
 #include <variant>
 
 #include "base/math/time_integral.hpp"
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "setup/blocks.hpp"
 #include "setup/changes_in_time.hpp"
@@ -83,7 +85,7 @@ std::vector<Function> straining_values(const deck::Condition& condition) {
   return {};
 }
 
-// The time that a wave takes for one spacing of each block, s.
+// The time that a wave takes for one spacing of each block, s; 0 of a block without points.
 std::vector<double> wave_times(const Body& body) {
   std::vector<double> times;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
@@ -100,8 +102,9 @@ double largest_at(const std::vector<double>& of_blocks, const std::vector<int>& 
 }
 
 // About the longest step of some points, s. `by_waves`: the largest of their wave times, which only substeps reach.
-double longest_step(const deck::Solver& solver, const std::vector<double>& times, double by_waves) {
+double longest_step(const deck::Solver& solver, std::vector<double> times, double by_waves) {
   if (solver.fixed_dt) return *solver.fixed_dt;
+  std::erase(times, 0);
   return std::max(solver.subcycling ? by_waves : std::ranges::min(times), solver.scaled_dt.value_or(0));
 }
 
@@ -162,7 +165,7 @@ void check_poles(const deck::Deck& deck, const PointsOfConditions& points, const
       });
       if (!pole) continue;
       std::ostringstream text;
-      text << value.path() << ": '" << value.text() << "' goes to infinity at t = " << *pole
+      text << value.path() << ": '" << value.text() << "' goes to infinity at t = " << to_text(*pole)
            << " s, so that it has no integral over time; expected a value that is finite throughout the run";
       problems.add(text.str());
     }
@@ -249,14 +252,32 @@ enum class Counts { as_it_is, by_change, by_integral };
 
 // Values of a condition at and between load steps.
 struct OverLoadSteps {
-  double largest = 0;         // at load steps
-  double zero = 0, most = 0;  // at the start, if changes count; anywhere
+  double largest = 0;                     // at load steps
+  double zero = 0, most = 0;              // at the start, if changes count; anywhere
+  std::array<double, 2> displacements{};  // two integrals over one load step that differ, if any do
   Missed missed;
 };
+
+// The integral from one time to another as the run finds it, and by more samples, if this differs by a hundredth of all
+// that the value does: it then has pulses that few samples miss, or turns more often than is looked at.
+std::array<double, 2> two_integrals(const OfTime& of_time, double from, double to) {
+  constexpr int parts = 512;
+  const std::vector<double> times = telling_times(of_time.value, of_time.X, from, to, parts);
+  double sum = 0, size = 0;
+  for (std::size_t n = 1; n < times.size(); ++n) {
+    const double part = (times[n] - times[n - 1]) * of_time(std::midpoint(times[n - 1], times[n]));
+    sum += part, size += std::abs(part);
+  }
+  if (!std::isfinite(sum)) return {};  // nor is it an error where no point is: the integral stores such values
+  const double of_run = time_integral(of_time.value, of_time.X, from, to);
+  if (std::abs(sum - of_run) > 0.01 * size) return {of_run, sum};
+  return {};
+}
 
 OverLoadSteps over_load_steps(const Function& value, const Where& where, const deck::Solver& solver, Counts counts,
                               bool rate_counts) {
   constexpr int most_between = 16, most_samples = 100000;  // of a load step and of a run
+  constexpr int most_integrals = 300;
   const int load_steps = solver.quasi_static->load_steps;
   const int between = std::clamp(most_samples / load_steps, 2, most_between);
   const double start = solver.initial_time, duration = solver.final_time - start;
@@ -274,6 +295,9 @@ OverLoadSteps over_load_steps(const Function& value, const Where& where, const d
         all.push_back(counts == Counts::by_integral ? position : of_time(times[n]) - found.zero);
         if (std::isfinite(all.back())) found.most = std::max(found.most, std::abs(all.back()));
       }
+      if (counts == Counts::by_integral && load_steps <= most_integrals &&
+          found.displacements[0] == found.displacements[1])
+        found.displacements = two_integrals(of_time, times.front(), times.back());
       found.largest = std::max({found.largest, std::abs(all.front()), std::abs(all.back())});
       take_missed(all, times, rate_counts, found.missed);
     }
@@ -301,8 +325,14 @@ std::string values_between_load_steps(const deck::Deck& deck, const PointsOfCond
     std::ranges::copy(sampled_values(condition), std::back_inserter(values));
     for (const Function& value : values) {
       if (!value.depends_on_time()) continue;
-      const auto [largest, zero, most, missed] =
+      const auto [largest, zero, most, displacements, missed] =
           over_load_steps(value, where(points[c], body), deck.solver, counts, rate_counts);
+      if (displacements[0] != displacements[1]) {
+        text += text_of("WARNING: ", value.path(),
+                        ": has pulses or turns that are too many for one load step, whose displacement is ",
+                        displacements[0], " m by the samples of the run, and ", displacements[1],
+                        " m by sixteen times as many; expected more load steps\n");
+      }
       if (!(missed.beyond > reported * largest + round_off * (std::abs(zero) + most))) continue;
       constexpr const char* what[] = {": reaches ", ": changes by ", ": its integral reaches "};
       text += text_of("WARNING: ", value.path(), what[static_cast<int>(counts)], missed.value, " at t = ", missed.time,

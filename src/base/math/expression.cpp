@@ -168,6 +168,7 @@ std::vector<double> Expression::turns(double x, double y, double z, const std::v
     found.insert(found.end(), std::ranges::lower_bound(rows, samples.front()),
                  std::ranges::upper_bound(rows, samples.back()));
   }
+  const std::size_t most = found.size() + most_turns;
   using Signs = std::vector<int>;
   const auto signs_at = [&](double t) {
     Machine machine(x, y, z, t, tables_);
@@ -178,7 +179,7 @@ std::vector<double> Expression::turns(double x, double y, double z, const std::v
   const double least = std::ldexp(samples.back() - samples.front(), -60);
   const std::function<void(double, double, const Signs&, const Signs&)> search =
       [&](double from, double to, const Signs& before, const Signs& after) {
-        if (before == after) return;
+        if (before == after || found.size() >= most) return;
         const double middle = std::midpoint(from, to);
         if (!(from < middle && middle < to && to - from > least)) return found.push_back(to);
         const Signs between = signs_at(middle);

@@ -53,7 +53,8 @@ class Expression {
   double operator()(double x, double y, double z, double t) const;
 
   // Times near which the value may turn, jump or peak: those at which an intermediate result changes its sign, such as
-  // t - 0.3 and t < 0.3, as the samples show (s, in order), to the last bit, and all rows of tables.
+  // t - 0.3 and t < 0.3, as the samples show (s, in order), to the last bit, and all rows of tables. Only
+  // the first `most_turns`, as each costs some 60 evaluations, and these rows.
   std::vector<double> turns(double x, double y, double z, const std::vector<double>& samples) const;
 
   bool uses_position() const { return uses_position_; }  // x, y or z
@@ -63,6 +64,7 @@ class Expression {
   static constexpr std::size_t longest = 10000;  // characters, without the numbers of tables
   static constexpr int deepest = 100;            // nesting of brackets, signs and blocks
   static constexpr int most_variables = 64;      // including x y z t value
+  static constexpr std::size_t most_turns = 10000;
 
  private:
   friend class ExpressionParser;

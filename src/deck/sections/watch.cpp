@@ -17,7 +17,8 @@ const ChoiceKey<bool> stops_inverted(
     {.name = "Inverted Points",
      .fallback = "Stop",
      .meaning =
-         "Points with det F ≤ 0. `Continue`: in explicit steps they have mass but no stress while they are inverted."},
+         "Points with det F ≤ 0. `Continue`: in explicit steps they have mass but no stress while they are inverted. "
+         "Ordinary solids (`Elastic`) go on either way, with a warning, once."},
     actions);
 
 const RealKey balance_error(

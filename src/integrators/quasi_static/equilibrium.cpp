@@ -148,7 +148,9 @@ void Equilibrium::check_values() {
   const std::vector<Vector> kept = body_.force_density;
   add_forces(conditions_, t_ + dt_, body_);
   put_back(kept, body_);
-  raise_together(body_.domain.communicator, conditions_.first_not_finite());
+  const Communicator& ranks = body_.domain.communicator;
+  const std::string no_number = conditions_.first_not_finite();
+  raise_together(ranks, ranks.first_rank(!no_number.empty()) == ranks.rank() ? no_number : "");
 }
 
 Imbalance Equilibrium::evaluate(bool with_diagnostics) {

@@ -263,6 +263,20 @@ TEST(Pulses, ShorterThanSamplesOfARunAreTold) {
               {"WARNING: Boundary Conditions > a > Value: jumps by 0.0001 m"}, "a displacement");
 }
 
+// The third block is a grain of one point, which is dropped. Without substeps the step is that of the stiffest block.
+TEST(Pulses, AreToldBesideABlockWithoutPoints) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 4, 1e-3) + cubes(2, {9e-3, 0, 0}, 1, 1, 1, 1e-3));
+  Parts parts = block("");
+  parts.mesh_type = "Text File", parts.mesh_file = (folder / "points.txt").string(), parts.degenerate = "Drop Any";
+  parts.verlet = key("Subcycling", "false");
+  const std::string pulse = "(t &gt; 2e-6)*(t &lt; 4e-6)";
+  parts.conditions = along("a", "Body Force", "block_1", "z", pulse + "*1e9");
+  expect_said(said_of(parts).warnings, {"jumps twice within 2e-06 s"}, "a load");
+  parts.conditions = displacement("a", "block_1", "z", pulse + "*1e-4");
+  expect_said(said_of(parts).warnings, {"jumps by 0.0001 m"}, "a displacement");
+}
+
 // A load of equilibria that the explicit steps begin without jumps once.
 TEST(Pulses, ThatActedBeforeTheStepsAreNone) {
   const RunFolder folder;
@@ -275,6 +289,8 @@ TEST(Pulses, ThatActedBeforeTheStepsAreNone) {
       told_at_the_start(deck::read(folder.write("deck.xml", text), folder.world), folder.world).warnings;
   EXPECT_EQ(warnings.find("jumps twice"), std::string::npos) << warnings;
 }
+
+const std::string to_and_fro = "100*sin(3.14159265358979e6*4*t)";
 
 // Load steps at 0.5, 1, … µs, ten of them.
 TEST(Values, BetweenLoadStepsAreTold) {
@@ -293,7 +309,6 @@ TEST(Values, BetweenLoadStepsAreTold) {
     EXPECT_EQ(warnings.find("between two load steps"), std::string::npos) << value;
   }
   // The integral of a velocity counts.
-  const std::string to_and_fro = "100*sin(3.14159265358979e6*4*t)";
   expect_said(said_of(block(velocity("a", "foot", "z", to_and_fro)), Loading::slow).warnings,
               {"a > Value: its integral reaches", "between two load steps"}, to_and_fro);
   for (const char* value : {"5*t*(4e-6 - t)", "table(t, 2.1e-6, 0, 2.2e-6, 100, 2.3e-6, 0)"}) {
@@ -310,6 +325,23 @@ TEST(Values, BetweenLoadStepsAreTold) {
   }
 }
 
+// 1600 waves that pass 18 rows each, and 50 pulses of 3 % of a wave. All rows of a long table count.
+TEST(Values, ThatDoTooMuchInALoadStepAreTold) {
+  const std::string waves = "1e-3*table(sin(2e9*t), -0.8, 0, -0.6, 1, -0.4, 0, -0.2, 1, 0, 0, 0.2, 1, 0.4, 0, 0.6, 1)";
+  const std::string pulses = "1e-4*(sin(6.2831853e7*t) &gt; 0.995)";
+  std::string table = "table(t";
+  for (int n = 0; n < 30000; ++n) table += ", " + std::to_string(n) + "e-10, " + std::to_string(n % 7 % 2) + "e-3";
+  const auto warnings = [](const std::string& value, const std::string& load_steps) {
+    return said_of(block(velocity("a", "foot", "z", value)), Loading::slow, key("Number of Load Steps", load_steps))
+        .warnings;
+  };
+  const std::string told = "WARNING: Boundary Conditions > a > Value: has pulses or turns that are too many";
+  for (const std::string& value : {waves, pulses}) expect_said(warnings(value, "1"), {told}, value);
+  for (const std::string& value : {waves, pulses}) EXPECT_EQ(warnings(value, "50").find(told), std::string::npos);
+  for (const std::string& value : {table + ")", std::string("1e-6/sqrt(abs(t - 2.00123e-6))"), to_and_fro})
+    EXPECT_EQ(warnings(value, "1").find(told), std::string::npos);
+}
+
 // A ramp that ends within a load step: its rate is not that of the step.
 TEST(Values, BesideTheLineBetweenLoadStepsAreToldIfTheRateCounts) {
   const auto warnings = [](const std::string& rate, const std::string& value) {
@@ -321,7 +353,8 @@ TEST(Values, BesideTheLineBetweenLoadStepsAreToldIfTheRateCounts) {
     return said_of(parts, Loading::slow).warnings;
   };
   const std::string ramp = "table(t, 0, 0, 1e-8, 1e-4, 5e-6, 1e-4)";
-  expect_said(warnings("Power Law", ramp), {"a > Value: reaches 0.0001 at t = 1e-08 s", "may depend on its rate"}, ramp);
+  expect_said(warnings("Power Law", ramp), {"a > Value: reaches 0.0001 at t = 1e-08 s", "may depend on its rate"},
+              ramp);
   EXPECT_EQ(warnings("None", ramp).find("between two load steps"), std::string::npos);
   for (const char* value : {"20*t", "table(t, 0, 0, 1e-6, 1e-4, 5e-6, 1e-4)", "1e-4*sin(6.2831853e5*t)"})
     EXPECT_EQ(warnings("Power Law", value).find("between two load steps"), std::string::npos) << value;

@@ -306,6 +306,24 @@ TEST(Symmetry, IsToldWhereThereIsNone) {
             std::string::npos);
 }
 
+TEST(Symmetry, OfTwoBodiesOnOnePlaneIsToldOnceThatContactDoesNotSeeIt) {
+  Lattice two;
+  two.plate_layers = 2;
+  const RunFolder folder(two);
+  Parts parts;
+  parts.node_sets = key("side", "x &lt; 1e-3");
+  parts.conditions = plane("p", "Symmetry Plane", "side", "0 0 0", "1 0 0");
+  parts.blocks = changed(parts.blocks, "all", "bar");
+  parts.blocks += section("plate", key("Block Names", "plate") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                       key("Separate Body", "true"));
+  parts.contact = contact_of({{"bar", "plate"}}, "1e-3", "1e12");
+  const Simulation run(folder, parts);
+  EXPECT_EQ(run.scene.body.domain.mirrors.size(), 2);
+  const std::string& told = run.advice.warnings;
+  EXPECT_NE(told.find("contact does not see mirror images"), std::string::npos) << told;
+  EXPECT_EQ(told.find("contact does not see mirror images"), told.rfind("contact does not see mirror images")) << told;
+}
+
 // Bonds to images run by nodes on the plane, which coordinates in single precision and normals of three digits miss.
 TEST(Symmetry, IsThatOfAPlaneThatMissesItsNodesByRoundOff) {
   const auto bonds = [](Parts parts, const std::string& point, const std::string& normal) {

@@ -31,11 +31,11 @@ const std::vector<Case> cases{
 
 // The error that ends the run, on every rank.
 std::string error_of(const std::string& conditions, bool slowly, const std::string& frequency,
-                     const std::string& final_time = "5e-6") {
+                     const std::string& times = key("Final Time", "5e-6")) {
   const RunFolder folder;
   Parts parts;
   parts.conditions = conditions;
-  parts.times = key("Final Time", final_time);
+  parts.times = times;
   parts.verlet = slowly ? key("Number of Load Steps", "10") : "";
   parts.history = key("Filename", (folder / "history.csv").string()) + key("Frequency", frequency);
   std::string text = parts.text();
@@ -57,6 +57,7 @@ void expect_named(const Case& one, bool slowly, const std::string& frequency) {
        {"Boundary Conditions > " + one.path + ": '", std::string(" is -nan at ("), std::string("t = 3")}) {
     EXPECT_NE(error.find(part), std::string::npos) << part << (slowly ? " slowly" : "") << " in:\n" << error;
   }
+  EXPECT_EQ(error.find(" is -nan"), error.rfind(" is -nan")) << "told by one rank: " << error;
 }
 
 // Whether the ledger is looked at in each step, or never before the end.
@@ -74,12 +75,26 @@ TEST(ValueThatIsNoNumber, EndsEquilibriaByItsName) {
 
 // No step needs a value later than the final time.
 TEST(ValueThatIsNoNumber, IsNoneUpToTheFinalTime) {
-  for (const Case& one : cases) EXPECT_EQ(error_of(one.conditions, false, "1", "3e-6"), "") << one.path;
+  for (const Case& one : cases) {
+    EXPECT_EQ(error_of(one.conditions, false, "1", key("Final Time", "3e-6")), "") << one.path;
+  }
 }
 
 TEST(ValueThatIsNoNumber, IsRefusedAtTheInitialTimeOfToolsToo) {
   const std::string error = error_of(pushed(key("Travel Z", "log(t)")), false, "1");
   EXPECT_NE(error.find("Boundary Conditions > tool > Travel Z: 'log(t)' is -inf"), std::string::npos) << error;
+}
+
+// One problem, whichever ranks have the points, and other conditions of all ranks besides.
+TEST(ValueThatIsNoNumber, IsToldOnceOverAllRanks) {
+  const std::string tool =
+      changed(pushed(key("Node Set", "top") + key("Mass", "1") + key("Force Z", "sqrt(t - 1e-6)")), "tool", "hammer");
+  const std::string of_tool = error_of(foot + tool + pushed(key("Mass", "1")), false, "1");
+  EXPECT_NE(of_tool.find("deck.xml: 1 problem\n"), std::string::npos) << of_tool;
+  EXPECT_NE(of_tool.find("hammer > Force Z: 'sqrt(t - 1e-6)' is -nan"), std::string::npos) << of_tool;
+  const std::string of_load = error_of(along("a", "Body Force", "all", "z", "sqrt(x - 2e-3)"), false, "1");
+  EXPECT_EQ(of_load.find("problem"), of_load.rfind("problem")) << of_load;
+  EXPECT_EQ(of_load.find("is -nan"), of_load.rfind("is -nan")) << of_load;
 }
 
 // A velocity or a load without an integral; one with an integral, and a steep one, are none.
@@ -99,6 +114,21 @@ TEST(Value, ThatGoesToInfinityIsRefused) {
   for (const std::string value :
        {"1e-6/sqrt(abs(t - 2.00123e-6))", "1e-3*exp(-(((t - 2.00123e-6)/3e-8)^2))", "1e-3*tan(1e5*t)"})
     EXPECT_EQ(error("Prescribed Velocity", value, false), "") << value;
+  EXPECT_EQ(error_of(along("a", "Body Force", "all", "z", "(1 + t)/(z - 3e-3)"), false, "1"), "")
+      << "no point is there";
+}
+
+// Far from 0 the digits of the time leave less room for a pulse than for a pole.
+TEST(Value, ThatIsAShortPulseAtALateTimeIsFinite) {
+  const auto error = [](const std::string& value) {
+    return error_of(foot + along("a", "Body Force", "top", "z", value), false, "1",
+                    key("Initial Time", "1000") + key("Final Time", "1000.00001"));
+  };
+  for (const std::string value :
+       {"1e6*(abs(t - 1000.000005) &lt; 1e-6)", "table(t, 1000.000004, 0, 1000.000005, 1e6, 1000.000006, 0)",
+        "1e6*exp(-(((t - 1000.000005)/1e-8)^2))"})
+    EXPECT_EQ(error(value), "") << value;
+  EXPECT_NE(error("1e-3/(t - 1000.000005)").find("goes to infinity at t = 1000.000005 s"), std::string::npos);
 }
 
 }  // namespace

@@ -59,6 +59,30 @@ Motion motion(Simulation& run) {
   return now;
 }
 
+// A grain of one point is dropped, and its block is empty: the run is as without it.
+TEST(SurfaceContact, ABlockWithoutPointsMeetsNothing) {
+  const RunFolder folder;
+  const std::string bodies = cubes(1, {0, 0, 0}, 6, 6, 3, h) + cubes(2, {h, h, 3.02 * h}, 4, 4, 3, h);
+  const auto end = [&](const std::string& grain, const std::string& type) {
+    Parts parts = on_held_plate(folder, bodies + grain);
+    parts.degenerate = "Drop";
+    if (!grain.empty()) {
+      parts.blocks += section("grain", key("Block Names", "block_3") + key("Material", "copper") +
+                                           key("Horizon", "2.01e-3") + key("Separate Body", "true"));
+    }
+    parts.conditions += along("throw", "Initial Velocity", "block_2", "z", "-50");
+    parts.contact = changed(surface_contact({}), section("Interactions", ""),
+                            section("Interactions", section(type, key("Contact Model", "m"))));
+    Simulation run(folder, parts);
+    run.go();
+    return motion(run).momentum;
+  };
+  const std::string grain = cubes(3, {0, 0, 20 * h}, 1, 1, 1, h);
+  const Vector alone = end("", "General Contact");
+  EXPECT_LT((end(grain, "General Contact") - alone).norm(), 1e-9 * alone.norm()) << "round-off: other partitions";
+  EXPECT_TRUE(end(grain, "Self Contact").allFinite());
+}
+
 // Thrown along a plate with the same lattice, a block loses μ times the momentum that the plate gives upwards; without
 // friction none, but for the lattices, and over several spacings that averages out.
 TEST(SurfaceContact, FrictionIsMuTimesTheLoadOnEqualLattices) {

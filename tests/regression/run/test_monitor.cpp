@@ -620,6 +620,28 @@ TEST(Monitor, InvertedPointsGoOnAsMassesWhereTheDeckSaysSo) {
   }
 }
 
+// An ordinary solid bears it: bonds have a length however its points lie.
+TEST(Monitor, InvertedPointsOfOrdinarySolidsAreToldOf) {
+  const RunFolder folder;
+  Parts parts;
+  parts.materials = changed(parts.materials, "Elastic Correspondence", "Elastic");
+  parts.watch = key("Beyond Limits", "Continue");
+  parts.conditions = along("all", "Prescribed Displacement", "all", "z", "-2.2e5*z*t") +
+                     along("sides", "Prescribed Displacement", "all", "xy", "0");
+  const std::vector<std::string> words = {"WARNING: at t = ", "a point of an ordinary solid is turned inside out",
+                                          "Jacobian is -0.", "element ", "(told once)"};
+  for (const std::string solver : {"Verlet", "QuasiStatic"}) {
+    if (solver == "QuasiStatic") parts.verlet = "";
+    parts.times = key("Final Time", "5e-6");
+    const Outcome o = outcome(folder, parts, solver);
+    EXPECT_EQ(o.error, "");
+    EXPECT_EQ(folder.world.sum(o.said.find("inside out") != std::string::npos ? 1.0 : 0.0), 1);
+    if (o.said.find("inside out") != std::string::npos) expect_words(o.said, words);
+    parts.times = key("Final Time", "4.5e-6");
+    EXPECT_EQ(outcome(folder, parts, solver).said.find("inside out"), std::string::npos);
+  }
+}
+
 // Copper that flows at 50 MPa is drawn along z at 1e5 1/s: F_zz = 1 + 1e5 t, which the deck prescribes at every point;
 // its width shrinks to 1/√F_zz, which adds 0.016 to |F|: it passes 8 at 6.98e-5 s.
 TEST(Monitor, PointsThatAreDrawnApartWithoutTearingAreToldOf) {

@@ -94,6 +94,19 @@ TEST_F(CompareTool, NaNDiffersFromANumber) {
   EXPECT_EQ(compare(result("a.e"), result("b.e", NAN), "--relative 1 --absolute 1e30").status, 1);
 }
 
+TEST_F(CompareTool, InfiniteTimesAndPlacesDifferFromNumbers) {
+  const auto result_at = [this](const std::string& name, double time, double x) {
+    io::ExodusWriter(path(name), Communicator(), cloud(x), {{"Damage", 1, false}}).write(time, Columns{{0, 0, 0}});
+    return path(name);
+  };
+  const std::string a = result_at("a.e", INFINITY, 0), b = result_at("b.e", 1, 0), c = result_at("c.e", 1, INFINITY);
+  expect_text(compare(a, b), "frame 1 is at t = inf s and 1 s");
+  expect_text(compare(b, a), "frame 1 is at t = 1 s and inf s");
+  expect_text(compare(c, b), "node 1 is at (inf, 0, 0) m and at (0, 0, 0) m");
+  EXPECT_EQ(compare(a, a).status, 0);
+  EXPECT_EQ(compare(c, c).status, 0);
+}
+
 TEST_F(CompareTool, MissingVariablesAndFrames) {
   const std::string a = result("a.e");
   const testing::Outcome other_name = compare(a, result("b.e", 0, 2, "Wear"));
