@@ -341,7 +341,6 @@ void CentralDifference::explain(const StepReport& report, const std::string& no_
   const Communicator& ranks = body_.domain.communicator;
   const int teller = ranks.first_rank(!no_number.empty());
   if (teller >= 0) raise_together(ranks, teller == ranks.rank() ? no_number : "");
-  warning_.clear();
   if (report.failure)
     warning_ = text_of("at t = ", time_, " s, step ", steps(), " of ", dt(), " s: ", describe(*report.failure, body_));
   if (!went_on_) raise_together(ranks, warning_);
