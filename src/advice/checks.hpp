@@ -60,6 +60,14 @@ std::string lines_of_points(const Situation& situation, const auto& measure, con
   });
 }
 
+// K/G of a law; where it is `hardly_compressible` or more, cells and pads that cannot change their volume are too
+// stiff.
+inline double bulk_over_shear(const materials::AnyLaw& law) {
+  const materials::Moduli moduli = materials::moduli_of(law);
+  return moduli.bulk / moduli.shear;
+}
+constexpr double hardly_compressible = 10;
+
 // The blocks that meet others, or themselves, by a kind of contact.
 template <class Law>
 std::set<int> blocks_that_meet_by(const Situation& situation) {
@@ -140,9 +148,6 @@ Check improbable_stretches;
 Check thin_members;
 // A line for each block of quadratic cells that is bonded to another one, at least twice as stiff.
 Check unlike_layers;
-// A line for each body and axis along which outer layers are held or pressed by a plane, if cells that do not strain
-// there add a twentieth to the stiffness, or nodes that give way take a twentieth.
-Check unstrained_ends;
 // The warnings of blocks with points whose families nearly lie in a plane.
 Check flat_families;
 // A warning for each block with ordinary points whose neighbors lie in a plane, if the deck asks for a variable of F.
@@ -201,6 +206,11 @@ Check unheld_bodies;
 // points on its surface, such as nodes of a matching mesh, do not count. Else for each tool that stands in whole cubic
 // cells by more than a fiftieth of a spacing, where they end; not in a run from the state of another one.
 Check filled_tools;
+
+// ---- unstrained_ends.cpp
+// A line for each body and axis along which outer layers are held or pressed by a plane, if cells that do not strain
+// there add a twentieth to the stiffness, or nodes that give way take a twentieth.
+Check unstrained_ends;
 
 // ---- tool_paths.cpp
 // A line for each tool that is initially more than a spacing away from all of its points: when it first

@@ -8,8 +8,6 @@
 
 #include "base/errors.hpp"
 #include "base/text.hpp"
-#include "conditions/crossing.hpp"
-#include "contact/interpenetration.hpp"
 #include "mechanics/steepness.hpp"
 
 namespace strut {
@@ -72,8 +70,6 @@ std::string fastest_point(const Body& body) {
   const double J = body.points[fastest].deformation_gradient.determinant();
   return of_largest(body, largest, text_of(locate(body, fastest), ", det F = ", J));
 }
-
-std::string at(double time) { return text_of("at t = ", time, " s "); }
 
 // True for laws in rate form, which define no stored energy: the ledger then uses J σ:ε/2 of the present stress.
 bool is_of_rates(const MaterialBlock& block) {
@@ -147,6 +143,8 @@ std::string without_a_number(const Body& body) {
 
 }  // namespace
 
+std::string Monitor::at(double time) { return text_of("at t = ", time, " s "); }
+
 void Monitor::warn_once(What what, const std::string& text) {
   if (!warned_[what] && !text.empty()) print_("WARNING: " + text + " (told once)");
   warned_[what] = true;
@@ -192,159 +190,6 @@ void Monitor::check_step(const CentralDifference& solver) {
                 "below the spacing");
     }
     passed(penetration, of_first(body_, !text.empty(), text));
-  }
-}
-
-void Monitor::check_interpenetration(double time, const contact::Contact& contact) {
-  if (!contact.any() || limits_.interpenetration >= 1 || is_silent(interpenetration) || time < next_interpenetration_)
-    return;
-  next_interpenetration_ = time + pause();
-  const auto found = contact::find_interpenetration(body_.domain, contact, limits_.interpenetration);
-  if (!found) return;
-  std::string text;
-  if (found->point >= 0) {
-    const std::vector<std::string>& names = body_.domain.cloud.block_names;
-    text = text_of(at(time), "blocks ", names[found->first], " and ", names[found->second],
-                   " pass through each other: ", found->points, " points, ", 100 * found->part,
-                   " % of the smaller one, are inside the other (Watch > Passing): ", locate(body_, found->point),
-                   ". Likely causes: contact too soft for the speed or the load",
-                   contact.by_surfaces(found->first, found->second) ? " (Stiffness Factor, Largest Overlap)"
-                                                                    : ", a Contact Radius far below the spacing");
-  }
-  passed(interpenetration, text);
-}
-
-void Monitor::check_undeclared(double time, const contact::Contact& contact) {
-  if (warned_[undeclared] || time < next_undeclared_) return;
-  next_undeclared_ = time + costly * pause();
-  const auto found = contact::find_undeclared(body_.domain, contact);
-  if (!found) return;
-  if (found->point < 0) return warn_once(undeclared, "");
-  const std::string &first = body_.domain.cloud.block_names[found->first],
-                    &second = body_.domain.cloud.block_names[found->second];
-  const std::string bodies =
-      found->first == found->second
-          ? "block " + first + " passes through itself, for the deck declares no contact of it with itself: "
-          : "blocks " + first + " and " + second +
-                " pass through each other, for the deck declares no contact between them: ";
-  warn_once(undeclared,
-            text_of(at(time), bodies, found->points,
-                    " points are inside of material that was elsewhere: ", locate(body_, found->point),
-                    ". Expected: Contact > Interactions > 'Self Contact' for bodies that fold, 'General Contact' for "
-                    "bodies that meet"));
-}
-
-void Monitor::check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools,
-                          Steps steps) {
-  if (time < next_tools_) return;
-  next_tools_ = time + pause();
-  if (!warned_[beyond_plane]) check_planes(time);
-  if (tools.empty()) return;
-  if (!warned_[beyond_tool]) check_sets_of_tools(time, conditions, tools);
-  if (!warned_[meeting]) check_meeting(time, conditions, tools);
-  if (warned_[crossing]) return;
-  const std::vector<Vector> places = present_positions(body_.domain);
-  std::size_t n = 0;
-  conditions.visit([&](const RigidTool& tool) {
-    const std::string& name = tools[n++].name;
-    if (warned_[crossing] || std::holds_alternative<HalfSpace>(tool.shape)) return;
-    const auto found = find_crossing(tool, time, body_.domain, places);
-    if (!found) return;
-    if (found->point < 0) return warn_once(crossing, "");
-    warn_once(crossing,
-              text_of(at(time), "the tool '", name,
-                      "' stands between points that are bonded to each other: ", locate(body_, found->point),
-                      ". Tools stop points only, and one that is thinner than 1.5 spacings, or an edge of it, passes "
-                      "between them",
-                      steps == Steps::of_load ? ", as does one that goes too far in a load step; expected more load "
-                                                "steps, "
-                                              : "; expected ",
-                      "a finer mesh or a thicker tool"));
-  });
-}
-
-namespace {
-
-// Collective. How many points of all ranks have gone through a surface, and one of them; −1 on other ranks.
-struct Passed {
-  double points = 0;
-  int one = -1;
-};
-
-// `gap`(point, place): how far a place is in front of the surface, m, with the surface where it was in the mesh or, of
-// the present place, where it is now. Points have gone through if they were in front and are half a spacing behind.
-Passed passed_points(const Domain& domain, const auto& gap_in_mesh, const auto& gap_now) {
-  Passed passed;
-  for (int i = domain.owned; i-- > 0;) {
-    const double h = domain.cloud.spacings[i];
-    if (gap_in_mesh(i) > on_plane * h && gap_now(i) < -0.5 * h) ++passed.points, passed.one = i;
-  }
-  passed.points = domain.communicator.sum(passed.points);
-  if (domain.communicator.first_rank(passed.one >= 0) != domain.communicator.rank()) passed.one = -1;
-  return passed;
-}
-
-}  // namespace
-
-// Nothing but bonds across it keeps a body in front of a plane behind which its mirror image is.
-void Monitor::check_planes(double time) {
-  const Domain& domain = body_.domain;
-  for (const Mirror& mirror : domain.mirrors) {
-    const auto side = [&](int i) { return mirror.distance(domain.reference(i)) < 0 ? -1 : 1; };
-    const Passed passed = passed_points(
-        domain, [&](int i) { return std::abs(mirror.distance(domain.reference(i))); },
-        [&](int i) { return side(i) * mirror.distance(domain.current(i)); });
-    std::ostringstream text;
-    if (passed.one >= 0) {
-      text << at(time) << "points have gone through a Symmetry Plane, " << passed.points << " by now, as "
-           << locate(body_, passed.one)
-           << ". Contact does not see mirror images; expected a Rigid Plane there too, or the whole body";
-    }
-    if (passed.points > 0) return warn_once(beyond_plane, text.str());
-  }
-}
-
-void Monitor::check_sets_of_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools) {
-  const Domain& domain = body_.domain;
-  std::size_t n = 0;
-  conditions.visit([&](const RigidTool& tool) {
-    const std::string& name = tools[n++].name;
-    const bool has_all = !domain.communicator.any(static_cast<int>(tool.points.size()) < domain.owned);
-    if (warned_[beyond_tool] || has_all) return;
-    std::vector<char> stopped(domain.owned, 0);
-    for (const int i : tool.points) stopped[i] = 1;
-    const Vector offset = tool.offset(time);
-    const auto gap = [&](const Vector& place) { return surface(tool.shape, tool.nearest_image(domain, place)).gap; };
-    const Passed passed = passed_points(
-        domain, [&](int i) { return stopped[i] ? 0 : gap(domain.reference(i)); },
-        [&](int i) { return gap(domain.current(i) - offset); });
-    std::ostringstream text;
-    if (passed.one >= 0) {
-      text << at(time) << "the tool '" << name
-           << "' stops the points of its Node Set only: others have gone through its surface, " << passed.points
-           << " by now, as " << locate(body_, passed.one)
-           << ". Expected no Node Set, or one of all points that may meet it";
-    }
-    if (passed.points > 0) warn_once(beyond_tool, text.str());
-  });
-}
-
-// Tools that overlap at the start are allowed to, e.g. two plates of one punch.
-void Monitor::check_meeting(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools) {
-  const std::vector<RigidTool> all = tools_of(conditions);
-  overlapped_.resize(all.size() * all.size(), 0);
-  for (std::size_t n = 0; n < all.size(); ++n) {
-    for (std::size_t m = 0; m < n; ++m) {
-      if (!may_meet(all[m], all[n])) continue;
-      const bool overlap = gap_between(all[m], all[n], time) < 0;
-      std::uint8_t& before = overlapped_[n * all.size() + m];
-      if (overlap && before == apart) {
-        warn(meeting, at(time) + "the tools '" + tools[m].name + "' and '" + tools[n].name +
-                          "' pass through each other: tools stop points only, and nothing is between them; expected "
-                          "material there, or an end before (Final Time)");
-      }
-      if (before == 0) before = overlap ? together : apart;
-    }
   }
 }
 

@@ -84,6 +84,7 @@ class Monitor {
   // True if this limit has nothing more to say. A run that continues may stop where the one before it went on.
   bool is_silent(What what) const { return warned_[what] && !limits_.stops; }
   void warn_once(What what, const std::string& text);
+  static std::string at(double time);  // how its warnings begin
   void warn(What what, const std::string& text);
   void check_planes(double time);
   void check_sets_of_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools);
