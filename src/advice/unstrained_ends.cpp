@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "advice/checks.hpp"
+#include "base/errors.hpp"
 #include "base/text.hpp"
 
 namespace strut {
