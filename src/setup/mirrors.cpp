@@ -1,11 +1,16 @@
 #include "setup/mirrors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
 #include <numbers>
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "base/text.hpp"
 #include "conditions/symmetry_plane.hpp"
 #include "setup/blocks.hpp"
@@ -241,51 +246,101 @@ void add_faces_without_images(const deck::Deck& deck, const FacesOnPlanes& faces
 
 namespace {
 
-// The area of a cell's cut by a plane or side, which is counted as surface of the body though it goes on behind it: the
-// filled fraction of the face. 0 if the cell has no such surface, m². The moment of the cut tells it from surfaces of
-// the body, which are nearer to the middle of the cell.
-double area_of_cut(const PointCloud& cloud, const Mirror& plane, int i) {
-  constexpr double part_of_moment = 0.7;
-  const double spacing = cloud.spacings[i];
-  if (std::abs(plane.distance(cloud.positions[i]) - 0.5 * spacing) > 0.1 * spacing) return 0;
-  const double area = cloud.volumes[i] / spacing;
-  const double moment = plane.normal.dot(cloud.shapes[i].surface_moments * plane.normal);
-  return moment > part_of_moment * 0.5 * area * spacing ? area : 0;
+// The face of a cube on a plane or side, and what is counted of it, m².
+struct FaceOnPlane {
+  std::array<std::int64_t, 4> nodes;  // their numbers, ascending
+  int point;
+  double filled;     // by material, estimated from its volume and center
+  double uncounted;  // of that, as surface of the body
+};
+
+constexpr std::int64_t number_of_node = (std::int64_t{1} << first_plane_bit) - 1;
+
+// Of a cube h wide with x toward the plane. Its material is bounded by the surface that is counted (area a and moment M
+// along x, from the middle), the rest A of the face on the plane, and the opposite face B. Over all of it ∫ n_x dA is
+// 0, a + A − B = 0, and ∫ n_x (x − X) dA is the volume, M + (A + B) h/2 = V.
+void estimate(const Mirror& plane, const PointCloud& cloud, FaceOnPlane& face) {
+  const double h = cloud.spacings[face.point], volume = cloud.volumes[face.point];
+  const CellShape& shape = cloud.shapes[face.point];
+  const double ahead = -plane.normal.dot(shape.offset);
+  const double filled = ahead > 0 ? volume / (h - 2 * ahead) : volume / h * (1 + 6 * ahead / h);
+  const double moment = plane.normal.dot(shape.surface_moments * plane.normal);
+  const double facing = -plane.normal.dot(shape.surface);
+  face.filled = std::clamp(filled, 0.0, h * h), face.uncounted = (volume - moment - 0.5 * h * facing) / h;
 }
 
-// Collective. A mesh that was made to repeat has no cuts at the sides, though some of the body's surface may lie there.
-bool was_made_to_repeat(const PointCloud& cloud, const Mirror& side, const Communicator& communicator) {
-  double counts[] = {0, 0};  // elements at the side; with surface on it
+// The faces of this rank's cubes that are bodies' ends at a plane or side. Periodic sides are of all bodies.
+std::vector<FaceOnPlane> faces_on(const Mirror& plane, const std::vector<BlockBonds>& bonds, const PointCloud& cloud) {
+  const bool is_lower = plane.period > 0 && plane.normal.sum() > 0;
+  const int bit = first_plane_bit + plane.bit + (is_lower ? lower_side : 0);
+  std::vector<FaceOnPlane> faces;
   for (int i = 0; i < std::ssize(cloud.shapes); ++i) {
-    if (std::abs(side.distance(cloud.positions[i]) - 0.5 * cloud.spacings[i]) > 0.1 * cloud.spacings[i]) continue;
-    ++counts[0], counts[1] += area_of_cut(cloud, side, i) > 0 ? 1 : 0;
+    if (plane.period == 0 && bonds[cloud.blocks[i]].body != plane.body) continue;
+    if (std::abs(plane.distance(cloud.positions[i]) - 0.5 * cloud.spacings[i]) > 1e-3 * cloud.spacings[i]) continue;
+    FaceOnPlane face{.nodes = {}, .point = i, .filled = 0, .uncounted = 0};
+    std::size_t count = 0;
+    for (const std::int64_t node : cloud.shared_nodes[i]) {
+      if ((node >> bit & 1) != 0 && count++ < 4) face.nodes[count - 1] = node & number_of_node;
+    }
+    if (count != 4) continue;
+    std::ranges::sort(face.nodes);
+    estimate(plane, cloud, face);
+    faces.push_back(face);
   }
-  communicator.sum(counts);
-  return counts[1] <= 0.4 * counts[0];
+  return faces;
 }
 
-void take_off_cut(const Mirror& plane, double area, double spacing, CellShape& shape) {
+// Collective. Those of all ranks; not many, as they are of one side.
+std::vector<FaceOnPlane> of_all_ranks(const std::vector<FaceOnPlane>& mine, const Communicator& communicator) {
+  std::vector<FaceOnPlane> leaving;
+  for (int rank = 0; rank < communicator.size(); ++rank) std::ranges::copy(mine, std::back_inserter(leaving));
+  const std::vector<std::int64_t> to(communicator.size(), std::ssize(mine)), from = counts_from_ranks(communicator, to);
+  return exchange<FaceOnPlane>(communicator, leaving, to, from);
+}
+
+// Collective. True if the faces of cells on a plane are counted as surface: the mesh was cut there. Of lattices and
+// foams -0.1 to 0.5 of the filled area is not counted then, 0.9 to 1.5 in meshes that were made to repeat.
+bool cuts(const std::vector<FaceOnPlane>& faces, const Communicator& communicator) {
+  double sums[] = {0, 0};
+  for (const FaceOnPlane& face : faces) sums[0] += face.filled, sums[1] += face.uncounted;
+  communicator.sum(sums);
+  return sums[1] < 0.7 * sums[0];
+}
+
+void take_off(const Mirror& plane, double area, double spacing, CellShape& shape) {
   const Vector outward = -plane.normal;
   const Vector along = shape.offset - outward.dot(shape.offset) * outward;
   shape.surface -= area * outward;
   shape.surface_moments -= area * outward * (along + 0.5 * spacing * outward).transpose();
 }
 
+// `behind`: the filled areas of the faces on the other side of a period; null at a mirror, behind which all goes on.
+void take_off(const Mirror& plane, const std::vector<FaceOnPlane>& faces,
+              const std::map<std::array<std::int64_t, 4>, double>* behind, PointCloud& cloud) {
+  for (const FaceOnPlane& face : faces) {
+    double area = face.filled - std::clamp(face.uncounted, 0.0, face.filled);
+    if (behind) area = behind->contains(face.nodes) ? std::min(area, behind->at(face.nodes)) : 0;
+    if (area > 0) take_off(plane, area, cloud.spacings[face.point], cloud.shapes[face.point]);
+  }
+}
+
 }  // namespace
 
 void take_off_cuts(const deck::Deck& deck, const Communicator& communicator, PointCloud& cloud) {
-  if (!communicator.any(!cloud.shapes.empty())) return;
+  const bool has_cells = cloud.at == PointsAt::elements && !cloud.shapes.empty() && !cloud.shared_nodes.empty();
+  if (!communicator.any(has_cells)) return;
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
-  const auto take_off = [&](const Mirror& plane) {
-    for (int i = 0; i < std::ssize(cloud.shapes); ++i) {
-      if (plane.period == 0 && bonds[cloud.blocks[i]].body != plane.body) continue;
-      const double area = area_of_cut(cloud, plane, i);
-      if (area > 0) take_off_cut(plane, area, cloud.spacings[i], cloud.shapes[i]);
-    }
-  };
-  for (const Mirror& plane : mirrors(deck, cloud, communicator).planes) take_off(plane);
-  for (const Mirror& side : sides_of_periods(deck)) {
-    if (!was_made_to_repeat(cloud, side, communicator)) take_off(side);
+  for (const Mirror& plane : mirrors(deck, cloud, communicator).planes) {
+    const std::vector<FaceOnPlane> faces = faces_on(plane, bonds, cloud);
+    if (cuts(faces, communicator)) take_off(plane, faces, nullptr, cloud);
+  }
+  const std::vector<Mirror> sides = sides_of_periods(deck);  // a lower and an upper one in turn
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const std::vector<FaceOnPlane> faces = faces_on(sides[s], bonds, cloud);
+    std::map<std::array<std::int64_t, 4>, double> behind;
+    for (const FaceOnPlane& face : of_all_ranks(faces_on(sides[s ^ 1], bonds, cloud), communicator))
+      behind[face.nodes] = face.filled;
+    if (cuts(faces, communicator)) take_off(sides[s], faces, &behind, cloud);
   }
 }
 
