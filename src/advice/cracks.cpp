@@ -139,8 +139,9 @@ std::string noisy_cracks(const Situation& situation) {
       return "WARNING: block '" + block.name +
              "' breaks bonds by Formulation 'Quadratic Correspondence' at one critical stretch: its cracks take 0.2 to "
              "1.6 of their fracture energy, and the four integration points of a cell, which have no mirror image of "
-             "their own, decide on the order of breaks: expect no symmetric crack. Choose a Fracture Energy (elastic "
-             "solids; 0.89 to 1.07 of it), or another Formulation\n";
+             "their own, decide on the order of breaks: expect no symmetric crack. Choose " +
+             (damage->fracture_energy > 0 ? "Damage Model 'Cohesive Crack'" : "a Fracture Energy") +
+             " (elastic solids; 0.89 to 1.07 of it), or another Formulation\n";
     }
     const BlockHorizons& of_block = situation.scene.body.domain.blocks[b];
     if (!(damage->fracture_energy > 0) || of_block.largest > 2 * of_block.spacing) return "";

@@ -117,10 +117,13 @@ std::string weights_by_mass(const Situation& situation) {
   std::string text;
   situation.scene.conditions.visit([&](const BodyForce& one) {
     const double value = one.value.evaluate(middle, situation.start + situation.duration);
-    if (!(std::abs(std::abs(value) - gravity) < alike_gravity)) return;
+    const double here = one.points.empty() ? -1 : body.domain.cloud.blocks[one.points.front()];
+    const double loaded = body.domain.communicator.max(here);
+    if (loaded < 0 || !(std::abs(std::abs(value) - gravity) < alike_gravity)) return;
+    const MaterialBlock& block = body.blocks[static_cast<std::size_t>(loaded)];
     text += text_of("WARNING: ", one.value.path(), " is ", value,
-                    " N/m³, a force per volume: the weight of 1 m³ of block '", body.blocks[0].name, "' is ",
-                    gravity * body.blocks[0].material.density, " N; is it meant in m/s²?\n");
+                    " N/m³, a force per volume: the weight of 1 m³ of block '", block.name, "' is ",
+                    gravity * block.material.density, " N; is it meant in m/s²?\n");
   });
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <set>
 #include <string_view>
 
@@ -176,6 +177,36 @@ std::multimap<std::string, std::string> keys_of(const Texts& texts, const std::s
   return names;
 }
 
+// True if the cracks of a section of Blocks open gradually (soften_cracks of setup/blocks.hpp; a horizon in m may be as
+// long as that takes).
+bool opens_gradually(const std::string& block, const Texts& texts) {
+  const std::string model = text_at(texts, block + " > Damage Model"), type = damage_type(model, texts);
+  if (type == "Cohesive Crack") return true;
+  const bool is_given = texts.contains("Damage Models > " + model + " > Fracture Energy");
+  if (type != "Critical Stretch" || !is_given || texts.contains("Solver > QuasiStatic")) return false;
+  const std::string material = "Materials > " + text_at(texts, block + " > Material");
+  if (text_at(texts, material + " > Material Model") != "Elastic Correspondence") return false;
+  if (text_at(texts, material + " > Formulation") == "Quadratic Correspondence") return true;
+  const std::string springs = text_at(texts, material + " > Stabilization");
+  if (springs == "Silling" || springs == "None") return false;
+  const auto factor = texts.find(block + " > Horizon Factor");
+  return factor == texts.end() || std::strtod(factor->second.c_str(), nullptr) < 1.95;
+}
+
+// A point that has softened, and one whose bonds break at once, do not go on as the other.
+void compare_cracks(const Texts& other, const Texts& now, std::vector<std::string>& refused) {
+  const std::string end = " > Damage Model";
+  for (const auto& [path, model] : now) {
+    if (!is_within(path, "Blocks") || !path.ends_with(end) || !other.contains(path)) continue;
+    const std::string block = path.substr(0, path.size() - end.size());
+    const bool there = opens_gradually(block, other), here = opens_gradually(block, now);
+    if (there == here) continue;
+    refused.push_back(path + ": its cracks open gradually " + (there ? "there, and not here" : "here, and not there") +
+                      " (a Fracture Energy of Critical Stretch acts so in explicit steps, but not with QuasiStatic; "
+                      "alike are a Critical Stretch, Cohesive Crack, or the steps of a Solver 2)");
+  }
+}
+
 // Symmetry planes and periodic sides make images of the points.
 void compare_images(const Texts& other, const Texts& now, std::vector<std::string>& refused) {
   const std::set<std::string> types = {"Symmetry Plane", "Periodic Sides"};
@@ -230,6 +261,7 @@ StartChanges start_changes(const std::string& other_deck, const std::string& dec
       changes.refused.push_back(path + ": " + both(was, "there", is, "here") + uncounted);
   }
   compare_images(other, now, changes.refused);
+  compare_cracks(other, now, changes.refused);
   changes.same_conditions = changes.same_conditions && other_keys.conditions == now_keys.conditions;
   changes.files = files_of(other);
   return changes;

@@ -68,9 +68,9 @@ Symmetric stress_of(const materials::Moduli& moduli, const Tensor& U, double exp
   return symmetric_part(T * U / U.determinant());
 }
 
-// The Cauchy stress that the bonds of a point carry, Σ ω V t η⊗η/|η|, Pa. Few bonds turn without resistance, and an F
-// that is fitted to them may be anything.
-Tensor stress_of_bonds(const Body& body, int i) {
+// The Cauchy stress that the bonds of a point carry, Σ ω V t η⊗η/|η| over its present volume ratio, Pa. Few bonds turn
+// without resistance, and an F that is fitted to them may be anything.
+Tensor stress_of_bonds(const Body& body, int i, double dilatation) {
   const ScalarState state = body.force_states.scalars[i];
   Tensor sum = Tensor::Zero();
   bonds::with_influence(body.influence, [&](auto weight) {
@@ -82,7 +82,7 @@ Tensor stress_of_bonds(const Body& body, int i) {
                   sum += w * (state.a * length + state.b * (now - length)) / now * bond * bond.transpose();
                 });
   });
-  return sum;
+  return sum / std::pow(1 + dilatation / 3, 3);
 }
 
 // K⁻¹ of the intact bonds; zero if they do not span space.
@@ -112,7 +112,7 @@ void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const Lane
       const Tensor R = polar_rotation(point.deformation_gradient);
       point.rotation = Rotation(R);
       point.stress = body.has_lost_bonds(group.i[l])
-                         ? symmetric_part(R.transpose() * stress_of_bonds(body, group.i[l]) * R)
+                         ? symmetric_part(R.transpose() * stress_of_bonds(body, group.i[l], ordinary.dilatation) * R)
                          : stress_of(moduli, R.transpose() * point.deformation_gradient, expansion[l]);
     }
   });

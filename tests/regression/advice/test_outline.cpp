@@ -54,7 +54,7 @@ TEST(Outline, TellsWhatAToolTakesFromAThrownBody) {
   Parts parts;
   parts.conditions =
       along("flight", "Initial Velocity", "all", "z", "-20") + plane("wall", "Rigid Plane", "all", "0 0 0", "0 0 1");
-  expect_told(told_of(parts), {"the tool 'wall' stops the layer of points of block 'bar' that meets it at once: about "
+  expect_told(told_of(parts), {"the tool 'wall' stops the layer of points of 'bar' that meets it at once: about "
                                "17 % of the kinetic energy"});
   parts.conditions = changed(parts.conditions, "-20", "20");
   EXPECT_EQ(told_of(parts).find("stops the layer"), std::string::npos);

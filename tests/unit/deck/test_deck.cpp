@@ -772,6 +772,36 @@ TEST(Changes, OfAStartMayAddADamageModelThatIsNotDuctile) {
                                "from the beginning what points have borne, which that run has not"});
 }
 
+// A Fracture Energy of Critical Stretch softens points in explicit steps, and breaks bonds at one stretch in
+// equilibria.
+TEST(Changes, OfAStartBetweenGradualCracksAndOthersAreRefused) {
+  const auto list = [](const std::string& name, const std::string& content) {
+    return "<ParameterList name=\"" + name + "\">" + content + "</ParameterList>";
+  };
+  const auto word = [](const std::string& name, const std::string& value) {
+    return "<Parameter name=\"" + name + "\" type=\"string\" value=\"" + value + "\"/>";
+  };
+  const auto deck_of = [&](const std::string& solver, const std::string& model, const std::string& factor = "1.75") {
+    return list("B", list("Materials", list("m", word("Material Model", "Elastic Correspondence"))) +
+                         list("Blocks", list("b", word("Material", "m") + word("Damage Model", "d") +
+                                                      word("Horizon Factor", factor))) +
+                         list("Damage Models", list("d", model)) + list("Solver", list(solver, "")));
+  };
+  const std::string by_energy = word("Damage Model", "Critical Stretch") + word("Fracture Energy", "5"),
+                    by_stretch = word("Damage Model", "Critical Stretch") + word("Critical Stretch", "5"),
+                    cohesive = word("Damage Model", "Cohesive Crack") + word("Fracture Energy", "5");
+  const auto count = [](const std::string& other, const std::string& now) {
+    return start_changes(other, now).refused.size();
+  };
+  EXPECT_EQ(count(deck_of("QuasiStatic", by_energy), deck_of("Verlet", by_energy)), 1U);
+  EXPECT_EQ(count(deck_of("Verlet", by_energy), deck_of("QuasiStatic", by_energy)), 1U);
+  EXPECT_EQ(count(deck_of("Verlet", by_energy), deck_of("Verlet", by_stretch)), 1U);
+  EXPECT_EQ(count(deck_of("Verlet", by_energy), deck_of("Verlet", by_energy)), 0U);
+  EXPECT_EQ(count(deck_of("QuasiStatic", by_stretch), deck_of("Verlet", by_stretch)), 0U);
+  EXPECT_EQ(count(deck_of("QuasiStatic", cohesive), deck_of("Verlet", cohesive)), 0U);
+  EXPECT_EQ(count(deck_of("QuasiStatic", by_energy, "3.015"), deck_of("Verlet", by_energy, "3.015")), 0U);
+}
+
 // Steps may change, masses may not.
 TEST(Changes, OfMassesWithinASectionOfStepsAreRefused) {
   const std::size_t begin = full_deck.find("<ParameterList name=\"Verlet\">");
