@@ -200,6 +200,9 @@ void compare_cracks(const Texts& other, const Texts& now, std::vector<std::strin
     if (!is_within(path, "Blocks") || !path.ends_with(end) || !other.contains(path)) continue;
     const std::string block = path.substr(0, path.size() - end.size());
     const bool there = opens_gradually(block, other), here = opens_gradually(block, now);
+    const std::string energy = "Damage Models > " + model + " > Fracture Energy";
+    if (there && here && text_at(other, energy) != text_at(now, energy) && !is_of_failure(energy, other))
+      refused.push_back(energy + ": " + both(text_at(other, energy), "there", text_at(now, energy), "here"));
     if (there == here) continue;
     refused.push_back(path + ": its cracks open gradually " + (there ? "there, and not here" : "here, and not there") +
                       " (a Fracture Energy of Critical Stretch acts so in explicit steps, but not with QuasiStatic; "

@@ -138,7 +138,7 @@ void Monitor::check_sets_of_tools(double time, const Conditions& conditions, con
       text << at(time) << "the tool '" << name
            << "' stops the points of its Node Set only: others have gone through its surface, " << passed.points
            << " by now, as " << locate(body_, passed.one)
-           << ". Expected no Node Set, or one of all points that may meet it";
+           << ". Expected no Node Set, one of all points that may meet it, or a Rigid Box if the surface ends";
     }
     if (passed.points > 0) warn_once(beyond_tool, text.str());
   });

@@ -797,6 +797,8 @@ TEST(Changes, OfAStartBetweenGradualCracksAndOthersAreRefused) {
   EXPECT_EQ(count(deck_of("Verlet", by_energy), deck_of("QuasiStatic", by_energy)), 1U);
   EXPECT_EQ(count(deck_of("Verlet", by_energy), deck_of("Verlet", by_stretch)), 1U);
   EXPECT_EQ(count(deck_of("Verlet", by_energy), deck_of("Verlet", by_energy)), 0U);
+  const std::string of_another = word("Damage Model", "Critical Stretch") + word("Fracture Energy", "50");
+  EXPECT_EQ(count(deck_of("Verlet", by_energy), deck_of("Verlet", of_another)), 1U);
   EXPECT_EQ(count(deck_of("QuasiStatic", by_stretch), deck_of("Verlet", by_stretch)), 0U);
   EXPECT_EQ(count(deck_of("QuasiStatic", cohesive), deck_of("Verlet", cohesive)), 0U);
   EXPECT_EQ(count(deck_of("QuasiStatic", by_energy, "3.015"), deck_of("Verlet", by_energy, "3.015")), 0U);
