@@ -189,10 +189,10 @@ constexpr double soft_springs = 0.5, stiff_springs = 1.3;
 std::string springs_of(const MaterialBlock& block, const materials::Hyperelastic& elastomer, double duration) {
   const BlockMaterial& material = block.material;
   const double given = coefficient_of(material.stabilization);
-  const double usual = usual_coefficient(material.law, material.stabilization, false);
+  const double usual = usual_coefficient(material.law, material.stabilization, false, PointsAt::elements);
   const materials::Hyperelastic relaxed = elastomer.relaxed(duration);
-  const double fitting = usual_coefficient(relaxed, material.stabilization, false) * relaxed.moduli().longitudinal() /
-                         elastomer.moduli().longitudinal();
+  const double fitting = usual_coefficient(relaxed, material.stabilization, false, PointsAt::elements) *
+                         relaxed.moduli().longitudinal() / elastomer.moduli().longitudinal();
   std::string text;
   if (given > stiff_springs * fitting && relaxed.shear() < elastomer.shear()) {
     text =
@@ -211,10 +211,10 @@ std::string springs_of(const MaterialBlock& block, const materials::Hyperelastic
                         "place of 0.3, pressed to 0.6 of its length, was 29 % too soft\n");
 }
 
-std::string springs_of_foam(const MaterialBlock& block) {
+std::string springs_of_foam(const MaterialBlock& block, PointsAt at) {
   const BlockMaterial& material = block.material;
   const double given = coefficient_of(material.stabilization);
-  const double usual = usual_coefficient(material.law, material.stabilization, false);
+  const double usual = usual_coefficient(material.law, material.stabilization, false, at);
   if (given >= std::min(soft_springs * usual, 0.3)) return "";  // 0.3: where bonds break; up to 7 % were measured
   return text_of(std::setprecision(2), "WARNING: block '", block.name,
                  "': its foam has a Stabilization Coefficient of ", given, "; the default is ", usual,
@@ -229,7 +229,7 @@ std::string unusual_springs(const Situation& situation) {
     const materials::AnyLaw& law = block.material.law;
     if (block.is_quadratic()) return "";
     if (std::holds_alternative<materials::DeshpandeFleck>(law) || std::holds_alternative<materials::PolymerFoam>(law))
-      return springs_of_foam(block);
+      return springs_of_foam(block, situation.scene.body.domain.cloud.at);
     const auto* elastomer = std::get_if<materials::Hyperelastic>(&law);
     const bool has_springs = residual_of(block.material.stabilization) != ResidualKind::none;
     return elastomer && has_springs ? springs_of(block, *elastomer, situation.duration) : "";

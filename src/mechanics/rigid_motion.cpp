@@ -15,12 +15,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool are_one(const Extremes& most) { return (most.head<3>() == -most.tail<3>()).all(); }
 
-// The extremes over a block's points on this rank; infinite if the velocity of a point differs from that of the others.
-Extremes extremes(const Body& body, const MaterialBlock& block, int number) {
+// The extremes over a block's points on this rank; infinite if the velocity of a point differs from that of the others,
+// or is about to.
+Extremes extremes(const Body& body, const MaterialBlock& block, int number, const std::vector<std::uint8_t>& met) {
   Extremes most = Extremes::Constant(-infinity);
   if (block.points.empty()) return most;
   const Vector& v = body.velocity[block.points.front()];
-  const bool move_otherwise = std::ranges::any_of(block.points, [&](int i) { return body.velocity[i] != v; });
+  const bool move_otherwise =
+      std::ranges::any_of(block.points, [&](int i) { return body.velocity[i] != v || (!met.empty() && met[i] != 0); });
   const auto is_constant = [](const Period& period) { return period.stretch.is_constant(); };
   if (move_otherwise || !std::ranges::all_of(body.domain.periods, is_constant)) return Extremes::Constant(infinity);
   const auto add = [&](const Vector& one) { most = most.max((Extremes() << one, -one).finished()); };
@@ -74,14 +76,15 @@ void find_rigid_motion(Body& body) {
   for (std::size_t b = 0; b < moved.size(); ++b) body.blocks[b].in_rigid_motion = moved[first_of(body, b)] == 0;
 }
 
-void update_rigid_motion(Body& body) {
+void update_rigid_motion(Body& body, const std::vector<std::uint8_t>& met) {
   std::vector<MaterialBlock>& blocks = body.blocks;
   if (std::ranges::none_of(blocks, &MaterialBlock::in_rigid_motion)) return;
   const bool all_did = all_move_rigidly(body);
   std::vector<double> most(6 * blocks.size(), -infinity);  // at the first block of each body
   const auto of_body = [&](std::size_t b) { return Eigen::Map<Extremes>(&most[6 * first_of(body, b)]); };
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (blocks[b].in_rigid_motion) of_body(b) = of_body(b).max(extremes(body, blocks[b], body.domain.blocks[b].body));
+    if (blocks[b].in_rigid_motion)
+      of_body(b) = of_body(b).max(extremes(body, blocks[b], body.domain.blocks[b].body, met));
   }
   body.domain.communicator.max(most);
   for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].in_rigid_motion &= are_one(of_body(b));

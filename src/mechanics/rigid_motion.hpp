@@ -2,6 +2,9 @@
 // They are not strained, and mechanics skips them.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "mechanics/body.hpp"
 
 namespace strut {
@@ -15,6 +18,7 @@ bool all_move_rigidly(const Body& body);
 // Collective while any body is in rigid motion, else free. Unmarks the bodies whose points no longer have one velocity,
 // to the last bit. Call it when velocities are final, before the points move. Until the first body is unmarked, ghosts
 // are at their reference positions; from then on at their positions at the start of the step.
-void update_rigid_motion(Body& body);
+// `met`: marks owned points that a tool may move within the step, in substeps; may be empty.
+void update_rigid_motion(Body& body, const std::vector<std::uint8_t>& met = {});
 
 }  // namespace strut

@@ -56,10 +56,10 @@ std::optional<DamageModel> damage_of(const deck::Deck& deck, const deck::Block& 
   return deck.damage_models[*section.damage_model].model;
 }
 
-Stabilization stabilization_of(const deck::Material& material, const std::optional<DamageModel>& damage) {
+Stabilization stabilization_of(const deck::Material& material, const std::optional<DamageModel>& damage, PointsAt at) {
   const bool breaks_by_stretch = damage && !damage->ductility;
   const double coefficient = material.stabilization_coefficient.value_or(
-      usual_coefficient(material.law, material.stabilization, breaks_by_stretch));
+      usual_coefficient(material.law, material.stabilization, breaks_by_stretch, at));
   return with_coefficient(material.stabilization, coefficient);
 }
 
@@ -85,12 +85,15 @@ materials::AnyLaw law_of(const deck::Material& material, const deck::Block& sect
 // usual springs are soft. Foams that compact would be crushed layer by layer at nodes: the outer ones, half as thick,
 // take 5/6 of the stress, and springs must bear the rest of the plateau. Silling's resist bending, too, and are less
 // stiff.
-double usual_coefficient(const materials::AnyLaw& law, const Stabilization& stabilization, bool breaks_by_stretch) {
+double usual_coefficient(const materials::AnyLaw& law, const Stabilization& stabilization, bool breaks_by_stretch,
+                         PointsAt at) {
   constexpr double usual = 0.01, stiff = 0.3, stiffest_of_foam = 1;
   if (breaks_by_stretch) return stiff;
   const double modulus =
       materials::moduli_of(law).longitudinal() * (std::holds_alternative<SillingStabilization>(stabilization) ? 4 : 1);
-  const auto of_foam = [&](double plateau) { return std::clamp(20 * plateau / modulus, usual, stiffest_of_foam); };
+  const auto of_foam = [&](double plateau) {
+    return at == PointsAt::nodes ? std::clamp(20 * plateau / modulus, usual, stiffest_of_foam) : usual;
+  };
   if (const auto* foam = std::get_if<materials::DeshpandeFleck>(&law)) return of_foam(foam->plateau);
   if (const auto* foam = std::get_if<materials::PolymerFoam>(&law)) return of_foam(foam->uniaxial_yield);
   const auto* elastomer = std::get_if<materials::Hyperelastic>(&law);
@@ -105,7 +108,7 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
     const std::optional<DamageModel> damage = damage_of(deck, section);
     materials.push_back({material.density,
                          law_of(material, section, damage),
-                         stabilization_of(material, damage),
+                         stabilization_of(material, damage, cloud.at),
                          material.formulation,
                          {material.linear_viscosity, material.quadratic_viscosity},
                          damage,

@@ -31,7 +31,8 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
 
 // The Stabilization Coefficient of a material whose section has none, as documented for the key
 // (deck/sections/materials.cpp).
-double usual_coefficient(const materials::AnyLaw& law, const Stabilization& stabilization, bool breaks_by_stretch);
+double usual_coefficient(const materials::AnyLaw& law, const Stabilization& stabilization, bool breaks_by_stretch,
+                         PointsAt at);
 
 // One entry for each block of the mesh.
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud);

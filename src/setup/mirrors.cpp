@@ -246,7 +246,7 @@ void add_faces_without_images(const deck::Deck& deck, const FacesOnPlanes& faces
 
 namespace {
 
-// The face of a cube on a plane or side, and what is counted of it, m².
+// The face of a cell on a plane or side, and what is counted of it, m².
 struct FaceOnPlane {
   std::array<std::int64_t, 4> nodes;  // their numbers, ascending
   int point;
@@ -256,27 +256,32 @@ struct FaceOnPlane {
 
 constexpr std::int64_t number_of_node = (std::int64_t{1} << first_plane_bit) - 1;
 
-// Of a cube h wide with x toward the plane. Its material is bounded by the surface that is counted (area a and moment M
-// along x, from the middle), the rest A of the face on the plane, and the opposite face B. Over all of it ∫ n_x dA is
-// 0, a + A − B = 0, and ∫ n_x (x − X) dA is the volume, M + (A + B) h/2 = V.
+// Of a cell with a face on the plane: from there to the opposite face, m.
+double thickness(const Mirror& plane, const PointCloud& cloud, int i) {
+  return 2 * std::abs(plane.distance(cloud.positions[i]));
+}
+
+// Of a box that is h wide along x, toward the plane. Its material is bounded by the surface that is counted (area a and
+// moment M along x, from the middle), the rest A of the face on the plane, and the opposite face B. Over all of it ∫
+// n_x dA is 0, a + A − B = 0, and ∫ n_x (x − X) dA is the volume, M + (A + B) h/2 = V.
 void estimate(const Mirror& plane, const PointCloud& cloud, FaceOnPlane& face) {
-  const double h = cloud.spacings[face.point], volume = cloud.volumes[face.point];
+  const double h = thickness(plane, cloud, face.point), volume = cloud.volumes[face.point];
   const CellShape& shape = cloud.shapes[face.point];
   const double ahead = -plane.normal.dot(shape.offset);
   const double filled = ahead > 0 ? volume / (h - 2 * ahead) : volume / h * (1 + 6 * ahead / h);
   const double moment = plane.normal.dot(shape.surface_moments * plane.normal);
   const double facing = -plane.normal.dot(shape.surface);
-  face.filled = std::clamp(filled, 0.0, h * h), face.uncounted = (volume - moment - 0.5 * h * facing) / h;
+  face.filled = std::clamp(filled, 0.0, std::pow(cloud.spacings[face.point], 3) / h),
+  face.uncounted = (volume - moment - 0.5 * h * facing) / h;
 }
 
-// The faces of this rank's cubes that are bodies' ends at a plane or side. Periodic sides are of all bodies.
+// The faces of this rank's hexahedra that are bodies' ends at a plane or side. Periodic sides are of all bodies.
 std::vector<FaceOnPlane> faces_on(const Mirror& plane, const std::vector<BlockBonds>& bonds, const PointCloud& cloud) {
   const bool is_lower = plane.period > 0 && plane.normal.sum() > 0;
   const int bit = first_plane_bit + plane.bit + (is_lower ? lower_side : 0);
   std::vector<FaceOnPlane> faces;
   for (int i = 0; i < std::ssize(cloud.shapes); ++i) {
     if (plane.period == 0 && bonds[cloud.blocks[i]].body != plane.body) continue;
-    if (std::abs(plane.distance(cloud.positions[i]) - 0.5 * cloud.spacings[i]) > 1e-3 * cloud.spacings[i]) continue;
     FaceOnPlane face{.nodes = {}, .point = i, .filled = 0, .uncounted = 0};
     std::size_t count = 0;
     for (const std::int64_t node : cloud.shared_nodes[i]) {
@@ -307,11 +312,11 @@ bool cuts(const std::vector<FaceOnPlane>& faces, const Communicator& communicato
   return sums[1] < 0.7 * sums[0];
 }
 
-void take_off(const Mirror& plane, double area, double spacing, CellShape& shape) {
+void take_off(const Mirror& plane, double area, double thickness, CellShape& shape) {
   const Vector outward = -plane.normal;
   const Vector along = shape.offset - outward.dot(shape.offset) * outward;
   shape.surface -= area * outward;
-  shape.surface_moments -= area * outward * (along + 0.5 * spacing * outward).transpose();
+  shape.surface_moments -= area * outward * (along + 0.5 * thickness * outward).transpose();
 }
 
 // `behind`: the filled areas of the faces on the other side of a period; null at a mirror, behind which all goes on.
@@ -320,7 +325,7 @@ void take_off(const Mirror& plane, const std::vector<FaceOnPlane>& faces,
   for (const FaceOnPlane& face : faces) {
     double area = face.filled - std::clamp(face.uncounted, 0.0, face.filled);
     if (behind) area = behind->contains(face.nodes) ? std::min(area, behind->at(face.nodes)) : 0;
-    if (area > 0) take_off(plane, area, cloud.spacings[face.point], cloud.shapes[face.point]);
+    if (area > 0) take_off(plane, area, thickness(plane, cloud, face.point), cloud.shapes[face.point]);
   }
 }
 

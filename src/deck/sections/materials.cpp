@@ -37,9 +37,10 @@ const ChoiceKey<Stabilization> stabilization(
 const OptionalKey<double> stabilization_coefficient(
     {.name = "Stabilization Coefficient",
      .range = not_negative,
-     .meaning = "Stiffness of the springs in units of (λ + 2μ)/(tr K/3), K the shape tensor. Default 0.01; 0.3 in "
-                "blocks whose bonds break by stretch; in foams that compact 20 plateaus/(λ + 2μ), 0.01 to 1, in "
-                "elastomers 4 μ/(λ + 2μ), 0.01 to 0.3, Silling a quarter."});
+     .meaning =
+         "Stiffness of the springs in units of (λ + 2μ)/(tr K/3), K the shape tensor. Default 0.01; 0.3 in "
+         "blocks whose bonds break by stretch; in foams that compact, at nodes, 20 plateaus/(λ + 2μ), 0.01 to 1, in "
+         "elastomers 4 μ/(λ + 2μ), 0.01 to 0.3, Silling a quarter."});
 
 const RealKey linear_viscosity(
     {.name = "Linear Viscosity",

@@ -107,7 +107,10 @@ double CentralDifference::energy_of_half_step(const std::vector<Vector>& inner) 
 }
 
 void CentralDifference::advance_position(bool with_diagnostics) {
-  update_rigid_motion(body_);
+  const bool substeps_of_rigid =
+      multi_stepping_.level_count() > 0 && std::ranges::any_of(body_.blocks, &MaterialBlock::in_rigid_motion);
+  update_rigid_motion(body_, substeps_of_rigid ? met_points(body_, conditions_, body_.velocity, time_, dt())
+                                               : std::vector<std::uint8_t>());
   if (fracture_) {
     fracture_->start_criteria(body_);
     const Domain& domain = body_.domain;

@@ -327,16 +327,36 @@ std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& cond
   return any ? marks : std::vector<std::uint8_t>();
 }
 
-std::vector<std::uint8_t> rubbed_points(const Body& body, const Conditions& conditions,
+namespace {
+
+Vector velocity_of(const RigidTool& tool, double t, double dt) {
+  if (tool.free) return tool.free->velocity;
+  return dt > 0 ? Vector((tool.offset(t + dt) - tool.offset(t)) / dt) : Vector(Vector::Zero());
+}
+
+// Marks those of the tools for which acts(tool) is true; empty if there is none.
+std::vector<std::uint8_t> points_met_by(const auto& acts, const Body& body, const Conditions& conditions,
                                         std::span<const Vector> velocities, double t, double dt) {
   std::vector<std::uint8_t> marks;
   for (const RigidTool& tool : tools_of(conditions)) {
-    if (tool.friction == 0 || tool.free) continue;
+    if (!acts(tool)) continue;
     marks.resize(body.owned(), 0);
-    const Vector velocity = dt > 0 ? Vector((tool.offset(t + dt) - tool.offset(t)) / dt) : Vector(Vector::Zero());
-    mark_met(tool, velocity, body, velocities, t, dt, marks);
+    mark_met(tool, velocity_of(tool, t, dt), body, velocities, t, dt, marks);
   }
   return marks;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> met_points(const Body& body, const Conditions& conditions, std::span<const Vector> velocities,
+                                     double t, double dt) {
+  return points_met_by([](const RigidTool&) { return true; }, body, conditions, velocities, t, dt);
+}
+
+std::vector<std::uint8_t> rubbed_points(const Body& body, const Conditions& conditions,
+                                        std::span<const Vector> velocities, double t, double dt) {
+  const auto rubs = [](const RigidTool& tool) { return tool.friction != 0 && !tool.free; };
+  return points_met_by(rubs, body, conditions, velocities, t, dt);
 }
 
 std::vector<std::uint8_t> damped_points(const Body& body, const Conditions& conditions) {

@@ -29,6 +29,10 @@ struct ActedOn {
 std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& conditions, const contact::Contact& contact,
                                         std::span<const Vector> velocities, double t, double dt);
 
+// Marks owned points that a tool meets at time t (s), or is about to. Empty if there is none.
+std::vector<std::uint8_t> met_points(const Body& body, const Conditions& conditions, std::span<const Vector> velocities,
+                                     double t, double dt);
+
 // Marks owned points that a tool without a mass rubs at time t (s), or is about to. Empty if there is none with
 // friction.
 std::vector<std::uint8_t> rubbed_points(const Body& body, const Conditions& conditions,
