@@ -261,11 +261,11 @@ struct OverLoadSteps {
 // The integral from one time to another as the run finds it, and by more samples, if this differs by a hundredth of all
 // that the value does: it then has pulses that few samples miss, or turns more often than is looked at.
 std::array<double, 2> two_integrals(const OfTime& of_time, double from, double to) {
-  constexpr int parts = 16;
+  constexpr int parts = 512;
+  const std::vector<double> times = telling_times(of_time.value, of_time.X, from, to, parts);
   double sum = 0, size = 0;
-  for (int n = 0; n < parts; ++n) {
-    const double begin = std::lerp(from, to, n / double{parts}), end = std::lerp(from, to, (n + 1) / double{parts});
-    const double part = time_integral(of_time.value, of_time.X, begin, end);
+  for (std::size_t n = 1; n < times.size(); ++n) {
+    const double part = (times[n] - times[n - 1]) * of_time(std::midpoint(times[n - 1], times[n]));
     sum += part, size += std::abs(part);
   }
   if (!std::isfinite(sum)) return {};  // nor is it an error where no point is: the integral stores such values
