@@ -60,6 +60,14 @@ std::string lines_of_points(const Situation& situation, const auto& measure, con
   });
 }
 
+// Collective. The block of each owned point and ghost.
+inline std::vector<int> blocks_of(const Domain& domain) {
+  std::vector<int> blocks(domain.cloud.blocks.begin(), domain.cloud.blocks.end());
+  blocks.resize(domain.owned + domain.ghosts, -1);
+  domain.halo.exchange(blocks);
+  return blocks;
+}
+
 // K/G of a law; where it is `hardly_compressible` or more, cells and pads that cannot change their volume are too
 // stiff.
 inline double bulk_over_shear(const materials::AnyLaw& law) {

@@ -206,14 +206,6 @@ bool is_whole(const Body& body) {
   return !body.domain.communicator.any(lost);
 }
 
-// The blocks of owned points and ghosts.
-std::vector<int> blocks_of(const Domain& domain) {
-  std::vector<int> blocks(domain.cloud.blocks.begin(), domain.cloud.blocks.end());
-  blocks.resize(domain.owned + domain.ghosts, -1);
-  domain.halo.exchange(blocks);
-  return blocks;
-}
-
 std::string remedy(const deck::Deck& deck, const std::string& first, const std::string& second) {
   const std::string one = section_of(deck, first)->name, other = section_of(deck, second)->name;
   if (one == other) return "a section of Blocks for each of them (both are in '" + one + "'), with Separate Body true";

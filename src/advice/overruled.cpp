@@ -199,7 +199,8 @@ void tell_scaled_ends(const Situation& situation, std::ostringstream& text) {
 // An end has the traction −ρ c v of waves that leave; whatever else stands at it in the state that the run starts from
 // is let go.
 void tell_standing_ends(const Situation& situation, std::ostringstream& text) {
-  // Of the mean stress of the body: on the outer points of a free end half a layer stands. Oblique waves leave a fifth.
+  // `tells`: a fraction of the body's mean stress; the outer points of a free end, half a layer below its surface, have
+  // less. `of_waves_too`: a fraction of the traction at the end; oblique waves leave a fifth of theirs.
   constexpr double tells = 0.25, of_waves_too = 0.5;
   const Body& body = situation.scene.body;
   if (!situation.deck.start_from) return;

@@ -118,9 +118,7 @@ std::string unlike_layers(const Situation& situation) {
   constexpr double worth_saying = 2;
   const Body& body = situation.scene.body;
   const Domain& domain = body.domain;
-  std::vector<int> blocks(domain.cloud.blocks.begin(), domain.cloud.blocks.end());
-  blocks.resize(domain.owned + domain.ghosts, -1);
-  domain.halo.exchange(blocks);
+  const std::vector<int> blocks = blocks_of(domain);
   const auto stiffness_of = [&](int b) { return materials::moduli_of(body.blocks[b].material.law).longitudinal(); };
   std::vector<double> stiffest(body.blocks.size(), 0);  // of those that a block is bonded to
   for (int i = 0; i < domain.owned; ++i) {

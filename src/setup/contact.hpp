@@ -16,7 +16,7 @@ void check_interactions(const deck::Deck& deck, const PointCloud& cloud, deck::P
 // Interactions of blocks: first the named ones, then all other pairs if an interaction names none.
 std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const PointCloud& cloud);
 
-// Those of blocks that have points, with the data of both bodies in laws between surfaces: stiffness and spacing.
+// The interactions of blocks that have points. Laws between surfaces get the stiffness and the spacing of both bodies.
 std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const Body& body);
 
 }  // namespace strut

@@ -246,25 +246,26 @@ void add_faces_without_images(const deck::Deck& deck, const FacesOnPlanes& faces
 
 namespace {
 
-// The face of a cell on a plane or side, and what is counted of it, m².
-struct FaceOnPlane {
+// A cell's face on a plane or periodic side; its areas are in m².
+struct CellFace {
   std::array<std::int64_t, 4> nodes;  // their numbers, ascending
   int point;
-  double filled;     // by material, estimated from its volume and center
-  double uncounted;  // of that, as surface of the body
+  double filled;     // by material, estimated from the cell's volume and centroid
+  double uncounted;  // the part of `filled` that the mesh does not count as surface of the body
 };
 
 constexpr std::int64_t number_of_node = (std::int64_t{1} << first_plane_bit) - 1;
 
-// Of a cell with a face on the plane: from there to the opposite face, m.
+// The distance between the face of a cell on the plane and the opposite face of this cell, m.
 double thickness(const Mirror& plane, const PointCloud& cloud, int i) {
   return 2 * std::abs(plane.distance(cloud.positions[i]));
 }
 
-// Of a box that is h wide along x, toward the plane. Its material is bounded by the surface that is counted (area a and
-// moment M along x, from the middle), the rest A of the face on the plane, and the opposite face B. Over all of it ∫
-// n_x dA is 0, a + A − B = 0, and ∫ n_x (x − X) dA is the volume, M + (A + B) h/2 = V.
-void estimate(const Mirror& plane, const PointCloud& cloud, FaceOnPlane& face) {
+// Sets the areas of a face. The x axis points out of the body, h is the thickness of the cell along x, and X is the
+// middle of the cell. The material in the cell has the volume V and is bounded by the surface that the mesh counts,
+// with the area a = ∫ n_x dA and the moment M = ∫ n_x (x − X) dA; by the uncounted area A of the face on the plane; and
+// by the area B of the opposite face. The integrals over this whole boundary are a + A − B = 0 and M + (A + B) h/2 = V.
+void estimate(const Mirror& plane, const PointCloud& cloud, CellFace& face) {
   const double h = thickness(plane, cloud, face.point), volume = cloud.volumes[face.point];
   const CellShape& shape = cloud.shapes[face.point];
   const double ahead = -plane.normal.dot(shape.offset);
@@ -276,13 +277,13 @@ void estimate(const Mirror& plane, const PointCloud& cloud, FaceOnPlane& face) {
 }
 
 // The faces of this rank's hexahedra that are bodies' ends at a plane or side. Periodic sides are of all bodies.
-std::vector<FaceOnPlane> faces_on(const Mirror& plane, const std::vector<BlockBonds>& bonds, const PointCloud& cloud) {
+std::vector<CellFace> faces_on(const Mirror& plane, const std::vector<BlockBonds>& bonds, const PointCloud& cloud) {
   const bool is_lower = plane.period > 0 && plane.normal.sum() > 0;
   const int bit = first_plane_bit + plane.bit + (is_lower ? lower_side : 0);
-  std::vector<FaceOnPlane> faces;
+  std::vector<CellFace> faces;
   for (int i = 0; i < std::ssize(cloud.shapes); ++i) {
     if (plane.period == 0 && bonds[cloud.blocks[i]].body != plane.body) continue;
-    FaceOnPlane face{.nodes = {}, .point = i, .filled = 0, .uncounted = 0};
+    CellFace face{.nodes = {}, .point = i, .filled = 0, .uncounted = 0};
     std::size_t count = 0;
     for (const std::int64_t node : cloud.shared_nodes[i]) {
       if ((node >> bit & 1) != 0 && count++ < 4) face.nodes[count - 1] = node & number_of_node;
@@ -296,18 +297,18 @@ std::vector<FaceOnPlane> faces_on(const Mirror& plane, const std::vector<BlockBo
 }
 
 // Collective. Those of all ranks; not many, as they are of one side.
-std::vector<FaceOnPlane> of_all_ranks(const std::vector<FaceOnPlane>& mine, const Communicator& communicator) {
-  std::vector<FaceOnPlane> leaving;
+std::vector<CellFace> of_all_ranks(const std::vector<CellFace>& mine, const Communicator& communicator) {
+  std::vector<CellFace> leaving;
   for (int rank = 0; rank < communicator.size(); ++rank) std::ranges::copy(mine, std::back_inserter(leaving));
   const std::vector<std::int64_t> to(communicator.size(), std::ssize(mine)), from = counts_from_ranks(communicator, to);
-  return exchange<FaceOnPlane>(communicator, leaving, to, from);
+  return exchange<CellFace>(communicator, leaving, to, from);
 }
 
 // Collective. True if the faces of cells on a plane are counted as surface: the mesh was cut there. Of lattices and
 // foams -0.1 to 0.5 of the filled area is not counted then, 0.9 to 1.5 in meshes that were made to repeat.
-bool cuts(const std::vector<FaceOnPlane>& faces, const Communicator& communicator) {
+bool cuts(const std::vector<CellFace>& faces, const Communicator& communicator) {
   double sums[] = {0, 0};
-  for (const FaceOnPlane& face : faces) sums[0] += face.filled, sums[1] += face.uncounted;
+  for (const CellFace& face : faces) sums[0] += face.filled, sums[1] += face.uncounted;
   communicator.sum(sums);
   return sums[1] < 0.7 * sums[0];
 }
@@ -320,9 +321,9 @@ void take_off(const Mirror& plane, double area, double thickness, CellShape& sha
 }
 
 // `behind`: the filled areas of the faces on the other side of a period; null at a mirror, behind which all goes on.
-void take_off(const Mirror& plane, const std::vector<FaceOnPlane>& faces,
+void take_off(const Mirror& plane, const std::vector<CellFace>& faces,
               const std::map<std::array<std::int64_t, 4>, double>* behind, PointCloud& cloud) {
-  for (const FaceOnPlane& face : faces) {
+  for (const CellFace& face : faces) {
     double area = face.filled - std::clamp(face.uncounted, 0.0, face.filled);
     if (behind) area = behind->contains(face.nodes) ? std::min(area, behind->at(face.nodes)) : 0;
     if (area > 0) take_off(plane, area, thickness(plane, cloud, face.point), cloud.shapes[face.point]);
@@ -336,16 +337,17 @@ void take_off_cuts(const deck::Deck& deck, const Communicator& communicator, Poi
   if (!communicator.any(has_cells)) return;
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   for (const Mirror& plane : mirrors(deck, cloud, communicator).planes) {
-    const std::vector<FaceOnPlane> faces = faces_on(plane, bonds, cloud);
+    const std::vector<CellFace> faces = faces_on(plane, bonds, cloud);
     if (cuts(faces, communicator)) take_off(plane, faces, nullptr, cloud);
   }
   const std::vector<Mirror> sides = sides_of_periods(deck);  // a lower and an upper one in turn
   for (std::size_t s = 0; s < sides.size(); ++s) {
-    const std::vector<FaceOnPlane> faces = faces_on(sides[s], bonds, cloud);
+    const std::vector<CellFace> faces = faces_on(sides[s], bonds, cloud);
+    if (!cuts(faces, communicator)) continue;
     std::map<std::array<std::int64_t, 4>, double> behind;
-    for (const FaceOnPlane& face : of_all_ranks(faces_on(sides[s ^ 1], bonds, cloud), communicator))
+    for (const CellFace& face : of_all_ranks(faces_on(sides[s ^ 1], bonds, cloud), communicator))
       behind[face.nodes] = face.filled;
-    if (cuts(faces, communicator)) take_off(sides[s], faces, &behind, cloud);
+    take_off(sides[s], faces, &behind, cloud);
   }
 }
 

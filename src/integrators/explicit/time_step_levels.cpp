@@ -195,18 +195,18 @@ void even_out(const Body& body, std::vector<std::uint8_t> damped, FrequencyBound
 // the impulses of points with longer steps, as a damper does (even_out). Bonds that may break keep level 0.
 void even_out_rubbed(Body& body, const std::vector<std::uint8_t>& rubbed, std::vector<std::uint8_t>& levels) {
   const auto may_rise = [&body](int i) { return may_be_subcycled(body, body.domain.cloud.blocks[i]); };
-  for (double changed[] = {1}; changed[0] > 0; body.domain.communicator.max(changed)) {
-    changed[0] = 0;
+  for (bool changed = true; body.domain.communicator.any(changed);) {
+    changed = false;
     std::vector<std::uint8_t> needed(body.owned(), 0);
     for (int i = 0; i < body.owned(); ++i) {
-      if (rubbed.empty() || !rubbed[i]) continue;
+      if (!rubbed[i]) continue;
       needed[i] = levels[i];
       body.domain.families.for_each(i, [&](int j) { needed[i] = std::max(needed[i], levels[j]); });
     }
     spread(body, 1, needed);
     for (int i = 0; i < body.owned(); ++i) {
       if (needed[i] <= levels[i] || !may_rise(i)) continue;
-      levels[i] = needed[i], changed[0] = 1;
+      levels[i] = needed[i], changed = true;
     }
     levels.resize(body.owned());
     with_ghosts(body, levels);
@@ -312,23 +312,6 @@ void mark_met(const RigidTool& tool, const Vector& velocity, const Body& body, s
   }
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& conditions, const contact::Contact& contact,
-                                        std::span<const Vector> velocities, double t, double dt) {
-  std::vector<std::uint8_t> marks(body.owned(), 0);
-  contact.mark_touching(marks);
-  bool any = contact.any();
-  for (const RigidTool& tool : tools_of(conditions)) {
-    if (!tool.free) continue;
-    any = true;
-    mark_met(tool, tool.free->velocity, body, velocities, t, dt, marks);
-  }
-  return any ? marks : std::vector<std::uint8_t>();
-}
-
-namespace {
-
 Vector velocity_of(const RigidTool& tool, double t, double dt) {
   if (tool.free) return tool.free->velocity;
   return dt > 0 ? Vector((tool.offset(t + dt) - tool.offset(t)) / dt) : Vector(Vector::Zero());
@@ -347,6 +330,17 @@ std::vector<std::uint8_t> points_met_by(const auto& acts, const Body& body, cons
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& conditions, const contact::Contact& contact,
+                                        std::span<const Vector> velocities, double t, double dt) {
+  const auto is_free = [](const RigidTool& tool) { return tool.free != nullptr; };
+  std::vector<std::uint8_t> marks = points_met_by(is_free, body, conditions, velocities, t, dt);
+  if (contact.any()) {
+    marks.resize(body.owned(), 0);
+    contact.mark_touching(marks);
+  }
+  return marks;
+}
 
 std::vector<std::uint8_t> met_points(const Body& body, const Conditions& conditions, std::span<const Vector> velocities,
                                      double t, double dt) {

@@ -49,7 +49,7 @@ TEST(Outline, SeesToolsThatMove) {
   expect_told(told_of(parts), {"speeds up to 3 m/s apart"});
 }
 
-// What a wall at rest takes from an elastic bar of n layers is 1/n of its energy.
+// A wall at rest takes 1/n of the kinetic energy of an elastic bar of n layers.
 TEST(Outline, TellsWhatAToolTakesFromAThrownBody) {
   Parts parts;
   parts.conditions =
