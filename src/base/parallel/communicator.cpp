@@ -26,14 +26,24 @@ void start_kokkos() {
 #endif
 }
 
+// Settings of Open MPI for a process that no launcher started; a user's own settings stay. A helper process for each
+// run would take longer to start than MPI itself; and programs without one share the folder of one session, which the
+// first to end removes while another begins to use it.
+void run_alone() {
+  for (const char* set_by_a_launcher : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
+    if (std::getenv(set_by_a_launcher)) return;
+  }
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+}
+
 }  // namespace
 
 Runtime::Runtime(int& argc, char**& argv) {
   int is_there = 0, level = MPI_THREAD_SINGLE;
   MPI_Initialized(&is_there);
   owns_mpi = is_there == 0;
-  // Without mpirun, Open MPI would start a helper process for each run, which takes longer than MPI itself.
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  run_alone();
   if (owns_mpi) MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);  // a run that asks for threads checks it
   start_kokkos();
 }
