@@ -118,15 +118,16 @@ double soft_end_of(const Body& body, std::size_t b) {
 }
 
 // Pads of 8 layers, four times as wide, whose faces were held were found so much too stiff: by quadratic correspondence
-// 42, 95 and 170 % at K/G = 10, 100 and 1000, by the mean gradient 37, 72 and 101 %; at nodes -4 to 4 %.
+// 39, 77 and 87 % at K/G = 10, 100 and 1000, by the mean gradient 37, 72 and 101 %; at nodes -4 to 4 %.
 std::string bonded_pads(const Body& body, int of_body) {
   double ratio = 0;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    if (body.domain.blocks[b].body == of_body) ratio = std::max(ratio, bulk_over_shear(body.blocks[b].material.law));
+    if (body.domain.blocks[b].body == of_body)
+      ratio = std::max(ratio, materials::bulk_over_shear(body.blocks[b].material.law));
   }
-  if (ratio < hardly_compressible) return "";
+  if (ratio < materials::hardly_compressible) return "";
   return text_of(std::setprecision(4), "; at K = ", std::round(ratio),
-                 " G far more where both ends cannot slide (pads of 8 layers 40 to 170 %; expected Points \"Nodes\")");
+                 " G far more where both ends cannot slide (pads of 8 layers 40 to 100 %; expected Points \"Nodes\")");
 }
 
 double soft_ends_of(const Body& body, int of_body) {
