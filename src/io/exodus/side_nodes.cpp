@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <utility>
 
 #include "base/parallel/gather_scatter.hpp"
@@ -56,13 +57,18 @@ bool meet(const SideCorner& a, const SideCorner& b) {
   return a.axis == b.axis && a.is_upper != b.is_upper && (holds(a, b.inward) || holds(b, a.inward));
 }
 
-// The distance between the materials behind two faces that meet, m; 0 or less if they touch.
+// The distance between the materials behind two faces that meet, m: the largest along 12 directions. 0 or less if they
+// touch.
 double apart(const SideCorner& a, const SideCorner& b) {
   if (a.is_partly_filled == 0 || b.is_partly_filled == 0) return 0;
   const Flat between = b.section.middle - a.section.middle;
-  const double distance = std::abs(between);
-  const Flat along = distance > 0 ? between / distance : 1;
-  return distance - (a.section.reach(along) + b.section.reach(along)) + (a.section.gap + b.section.gap);
+  double distance = -HUGE_VAL;
+  for (int n = 0; n < 12; ++n) {
+    const Flat along = std::polar(1.0, std::numbers::pi * n / 12);
+    const double middles = std::abs(std::real(std::conj(between) * along));
+    distance = std::max(distance, middles - (a.section.reach(along) + b.section.reach(along)));
+  }
+  return distance + (a.section.gap + b.section.gap);
 }
 
 // The section by a straight strut with the cell's moments, whose middle moves by `slope` per m along the axis.
