@@ -1,4 +1,5 @@
 // The checks of what passes through what: bodies, tools and planes.
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -111,9 +112,14 @@ void Monitor::check_planes(double time) {
         [&](int i) { return side(i) * mirror.distance(domain.current(i)); });
     std::ostringstream text;
     if (passed.one >= 0) {
+      const bool is_mirrored = std::ranges::any_of(domain.mirrors, [&](const Mirror& other) {
+        return other.number == mirror.number && other.body == domain.body_of(passed.one);
+      });
       text << at(time) << "points have gone through a Symmetry Plane, " << passed.points << " by now, as "
            << locate(body_, passed.one)
-           << ". Contact does not see mirror images; expected a Rigid Plane there too, or the whole body";
+           << (is_mirrored ? ". Contact does not see mirror images; expected a Rigid Plane there too, or the whole body"
+                           : ", whose body has no mirror image: right if this body is whole; if the scene is half of a "
+                             "symmetric one, expected a Rigid Plane there");
     }
     if (passed.points > 0) return warn_once(beyond_plane, text.str());
   }
