@@ -298,16 +298,19 @@ void CentralDifference::restrict_conditions(const std::optional<std::vector<std:
 }
 
 // Collective. The only reduction of a step, by maximum: whether a point has failed, whether to stop, the frequency
-// bound (1/s), the damping, whether exposed points are pushed, whether bonds broke, and the numbers of contact.
+// bound (1/s), the damping, whether exposed points are pushed, whether bonds broke or a tool rubs points of unlike
+// levels, and the numbers of contact.
 void CentralDifference::agree(const StepReport& report) {
   const std::string no_number = conditions_.first_not_finite();
   const std::vector<std::uint8_t>& exposed = multi_stepping_.exposed();
+  const bool rubs_unlike = multi_stepping_.level_count() > 0 &&
+                           is_uneven(body_, rubbed_points(body_, conditions_, body_.velocity, time_, dt()));
   std::vector<double> agreed{static_cast<double>(no_number.empty() ? severity(report) : fatal),
                              static_cast<double>(request_),
                              report.frequency_bound,
                              report.damping,
                              !exposed.empty() && any_in_both(pushed_now(), exposed) ? 1.0 : 0.0,
-                             static_cast<double>(new_breaks())};
+                             static_cast<double>(new_breaks() + (rubs_unlike ? 1 : 0))};
   const std::size_t own = agreed.size();
   contact_.append_to_agree(kinematics(), agreed);
   {

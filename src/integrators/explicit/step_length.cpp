@@ -16,8 +16,9 @@ constexpr double renewal_growth = 1.1;
 constexpr int renewal_steps = 1000;
 
 // Breaks may raise ω of points beside others that have lost bonds without raising the largest frequency bound, so the
-// estimate is renewed after breaks. It costs some four steps and is made at most once in steps_a_renewal steps on
-// average: each step earns 1 of an allowance, up to most_allowed, and each estimate takes steps_a_renewal from it.
+// estimate is renewed after breaks, and where a tool begins to rub points of unlike levels. It costs some four steps
+// and is made at most once in steps_a_renewal steps on average: each step earns 1 of an allowance, up to most_allowed,
+// and each estimate takes steps_a_renewal from it.
 constexpr int steps_a_renewal = 100, most_allowed = 10 * steps_a_renewal;
 
 constexpr double round_off = 1e-6;  // of a step: times are sums over up to millions of steps
@@ -55,7 +56,7 @@ void StepLength::estimate(Body& body) {
   if (kept) body.force_states = std::move(*kept);
   bound_at_estimate_ = frequency_bound_;
   estimate_pending_ = false;
-  bonds_broke_ = false;
+  changed_ = false;
   allowance_ -= steps_a_renewal;
   steps_since_estimate_ = 0;
 }
@@ -73,7 +74,7 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
   const bool estimated = estimate_pending_;
   if (estimated) estimate(body);
   levels_pending_ = levels_pending_ || frequency_bound_ > growth * bound_at_estimate_ ||
-                    steps_since_estimate_ >= renewal_steps || exposed_are_pushed || (bonds_broke_ && allowance_ >= 0);
+                    steps_since_estimate_ >= renewal_steps || exposed_are_pushed || (changed_ && allowance_ >= 0);
   if (control_.fixed_dt > 0) return choose_fixed(time, final_time);
   // Equal steps to the end, because a jump of dt at the last step would cost energy.
   const double longest = longest_step(contact_stiffness, body.may_break(), estimated);
@@ -146,7 +147,7 @@ void StepLength::serialize(Archive& archive, const Body& body) {
   archive.number("bound_at_estimate", bound_at_estimate_);
   archive.number("damping", damping_);
   archive.number("estimate_allowance", allowance_);
-  archive.number("bonds_broke", bonds_broke_);
+  archive.number("bonds_broke", changed_);
   archive.number("levels_due", levels_pending_);
   archive.number("estimate_due", estimate_pending_);
   archive.number("levels_anew", levels_anew_);

@@ -42,9 +42,10 @@ class StepLength {
   // Collective. Chooses the step after `time`, which does not pass `final_time`. `exposed_are_pushed`: contact acts on
   // points whose levels do not allow for it.
   void choose(double time, double final_time, double contact_stiffness, bool exposed_are_pushed, Body& body);
-  // Takes the largest frequency bound (1/s) and damping of a point, and whether bonds broke, on any rank in a step.
-  void take(double frequency_bound, double damping, bool bonds_broke) {
-    frequency_bound_ = frequency_bound, damping_ = damping, bonds_broke_ = bonds_broke_ || bonds_broke;
+  // Takes the largest frequency bound (1/s) and damping of a point on any rank in a step, and whether it has changed
+  // what levels should be: bonds broke, or a tool rubs other points.
+  void take(double frequency_bound, double damping, bool changed) {
+    frequency_bound_ = frequency_bound, damping_ = damping, changed_ = changed_ || changed;
   }
   void count_step();
 
@@ -72,9 +73,9 @@ class StepLength {
   double step_of_bound_ = 0;                                       // s, length of the step that followed this choice
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0;
-  int allowance_ = 0;  // steps made minus steps_a_renewal for each estimate: below 0, breaks cause no estimate
+  int allowance_ = 0;  // steps made minus steps_a_renewal for each estimate: below 0, changes cause no estimate
   bool levels_pending_ = true, estimate_pending_ = true, levels_anew_ = false;
-  bool bonds_broke_ = false;  // since the last estimate
+  bool changed_ = false;  // since the last estimate
 };
 
 }  // namespace strut

@@ -353,6 +353,15 @@ std::vector<std::uint8_t> rubbed_points(const Body& body, const Conditions& cond
   return points_met_by(rubs, body, conditions, velocities, t, dt);
 }
 
+bool is_uneven(const Body& body, const std::vector<std::uint8_t>& marks) {
+  bool uneven = false;
+  for (int i = 0; i < std::ssize(marks); ++i) {
+    if (!marks[i] || !may_be_subcycled(body, body.domain.cloud.blocks[i])) continue;
+    body.domain.families.for_each(i, [&](int j) { uneven |= body.time_levels[j] != body.time_levels[i]; });
+  }
+  return uneven;
+}
+
 std::vector<std::uint8_t> damped_points(const Body& body, const Conditions& conditions) {
   std::vector<std::uint8_t> marks;
   conditions.visit([&](const NonReflectingEnd& end) {

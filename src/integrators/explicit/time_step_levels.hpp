@@ -38,6 +38,9 @@ std::vector<std::uint8_t> met_points(const Body& body, const Conditions& conditi
 std::vector<std::uint8_t> rubbed_points(const Body& body, const Conditions& conditions,
                                         std::span<const Vector> velocities, double t, double dt);
 
+// True if a marked point of this rank has neighbors of another level.
+bool is_uneven(const Body& body, const std::vector<std::uint8_t>& marks);
+
 // Marks points whose motion a condition damps. Empty if none does.
 std::vector<std::uint8_t> damped_points(const Body& body, const Conditions& conditions);
 
