@@ -18,6 +18,7 @@
 namespace strut::materials {
 
 struct Hyperelastic {
+  static constexpr bool follows_stretch = true;
   static constexpr int most_terms = 3, most_times = 4;
 
   struct Term {

@@ -19,6 +19,9 @@
 //   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever
 //                     flowed or softened. The integration points of its cell then get their mean change of volume
 //                     (volumetric locking: src/mechanics/formulation/quadratic.md).
+//   follows_stretch   optional, true for laws of the second form whose stress is the derivative of an energy of the
+//                     stretch. Cells whose integration points share their volume give these the stretch of their mean
+//                     volume (src/mechanics/formulation/shared_volume.hpp).
 //   part_left         optional, for laws that soften as they fail: fraction, 1 to 0, of its stress that a point still
 //                     carries, with the state as an argument. It also scales the stabilization.
 //   set_crack_length  optional: sets the length over which a crack smears its opening, m.
@@ -113,6 +116,11 @@ inline constexpr bool tells_plastic_strain = requires(const L law, const typenam
 template <class L>
 inline constexpr bool tells_flow = requires(const L law, const typename L::State& state) {
   { law.has_flowed(state) } -> std::same_as<bool>;
+};
+
+template <class L>
+inline constexpr bool follows_stretch = requires {
+  requires L::follows_stretch;
 };
 
 // True if the law defines part_left(), the fraction of stress that a softening point still carries.

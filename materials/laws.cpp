@@ -16,6 +16,18 @@ Moduli moduli_of(const AnyLaw& law) {
   return std::visit([](const auto& one) -> Moduli { return one.moduli(); }, law);
 }
 
+double bulk_over_shear(const AnyLaw& law) {
+  const Moduli moduli = moduli_of(law);
+  return moduli.bulk / moduli.shear;
+}
+
+bool shares_volume(const AnyLaw& law) {
+  const auto is_told = []<class L>(const L&) {
+    return std::is_same_v<L, Elastic> || follows_stretch<L> || (tells_flow<L> && !std::is_same_v<L, UserLaw>);
+  };
+  return bulk_over_shear(law) >= hardly_compressible && std::visit(is_told, law);
+}
+
 namespace {
 
 bool has_rate(const FlowStress& flow) { return !std::holds_alternative<NoRate>(flow.rate); }

@@ -24,6 +24,17 @@ using AnyLaw = std::variant<Elastic, Brittle, J2, ThermalJ2, ShockJ2, Ductile, T
 // The elastic moduli of the undeformed solid.
 Moduli moduli_of(const AnyLaw& law);
 
+// K/G of the undeformed solid.
+double bulk_over_shear(const AnyLaw& law);
+
+// From this K/G on a body in which each cell must keep its volume is much too stiff.
+constexpr double hardly_compressible = 10;
+
+// True for such elastic solids, elastomers and metals: the integration points of their quadratic cells share their
+// change of volume from the start (src/mechanics/formulation/shared_volume.hpp). A library's law is not known well
+// enough.
+bool shares_volume(const AnyLaw& law);
+
 // True if the stress depends on how fast the strain changes, or may, as that of a library.
 bool depends_on_rate(const AnyLaw& law);
 

@@ -68,14 +68,6 @@ inline std::vector<int> blocks_of(const Domain& domain) {
   return blocks;
 }
 
-// K/G of a law; where it is `hardly_compressible` or more, cells and pads that cannot change their volume are too
-// stiff.
-inline double bulk_over_shear(const materials::AnyLaw& law) {
-  const materials::Moduli moduli = materials::moduli_of(law);
-  return moduli.bulk / moduli.shear;
-}
-constexpr double hardly_compressible = 10;
-
 // The blocks that meet others, or themselves, by a kind of contact.
 template <class Law>
 std::set<int> blocks_that_meet_by(const Situation& situation) {

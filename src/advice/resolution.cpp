@@ -41,12 +41,13 @@ std::string bending_of_thin(Influence influence, double horizon, double thicknes
                  "; by Formulation 'Quadratic Correspondence' expect ", expected_error_text(thickness, ""));
 }
 
-// The bending stiffness that quadratic cells, each of which must keep its volume, have too much. Measured on elastic
-// bars against finite elements, less that at K/G = 3: with 4 cells 0.04, 0.13, 0.30 and 0.6 at K/G = 10, 100, 1000 and
-// 5000; at 1000 with 2, 3 and 8 cells 1.2, 0.6 and 0.08.
+// The bending stiffness that quadratic cells have too much if each integration point must keep its volume. Measured on
+// elastic bars against finite elements, less that at K/G = 3: with 4 cells 0.04, 0.13, 0.30 and 0.6 at K/G = 10, 100,
+// 1000 and 5000; at 1000 with 2, 3 and 8 cells 1.2, 0.6 and 0.08.
 double locking(const materials::AnyLaw& law, double thickness) {
-  const double ratio = bulk_over_shear(law);
-  return ratio < hardly_compressible || !(thickness > 0) ? 0 : 0.15 * std::sqrt(ratio) / (thickness * thickness);
+  const double ratio = materials::bulk_over_shear(law);
+  const bool locks = ratio >= materials::hardly_compressible && !materials::shares_volume(law) && thickness > 0;
+  return locks ? 0.15 * std::sqrt(ratio) / (thickness * thickness) : 0;
 }
 
 // The warning for quadratic correspondence.
@@ -58,11 +59,10 @@ std::string resolution_of_thin(const materials::AnyLaw& law, double thickness, b
       std::visit([]<class L>(const L&) { return materials::tells_flow<L> && !materials::opens_cracks<L>; }, law);
   return "of struts expect " + expected_error_text(thickness, flows ? "in the plateau" : "", whole) +
          text_of(std::setprecision(2), ", of plates ±", 100 * expected_error(0.5 * thickness).stiffness, " %") +
-         (locks < worth_saying
-              ? ""
-              : text_of(std::setprecision(4), ", and in bending about ", std::round(100 * locks),
-                        " % more, as the law hardly changes its volume (K = ", std::round(bulk_over_shear(law)),
-                        " G)")) +
+         (locks < worth_saying ? ""
+                               : text_of(std::setprecision(4), ", and in bending about ", std::round(100 * locks),
+                                         " % more, as the law hardly changes its volume (K = ",
+                                         std::round(materials::bulk_over_shear(law)), " G)")) +
          "; tools/study --converge spacing measures it (docs/resolution.md)";
 }
 

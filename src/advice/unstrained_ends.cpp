@@ -16,27 +16,27 @@ namespace {
 
 constexpr int sides = 6;  // lower and upper along each axis
 
-// Collective. Marks for each side which owned points are the nearest to a plane tool that faces them, or whose motion
+// Collective. Marks for each side which owned points are the nearest to a plane or box that faces them, or whose motion
 // along the axis a condition prescribes, the latter also in `moved` for each axis.
 void mark_held(const Situation& situation, std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& moved) {
-  constexpr double across = 0.999;  // component of a plane's normal along an axis
+  constexpr double across = 0.999;  // component of the normal along an axis
   situation.scene.conditions.visit([&](const PrescribedMotion& one) {
     for (const int i : one.points) {
       for (const int axis : one.components) moved[i] |= 1 << axis, held[i] |= 3 << (2 * axis);
     }
   });
   situation.scene.conditions.visit([&](const RigidTool& tool) {
-    const auto* plane = std::get_if<HalfSpace>(&tool.shape);
-    if (!plane) return;
+    if (std::holds_alternative<Cylinder>(tool.shape)) return;
     const Domain& domain = situation.scene.body.domain;
-    const auto depth = [&](int i) { return -plane->normal.dot(domain.reference(i)); };
-    double deepest = std::numeric_limits<double>::lowest();
-    for (const int i : tool.points) deepest = std::max(deepest, depth(i));
-    deepest = domain.communicator.max(deepest);
-    for (int side = 0; side < sides; ++side) {
-      if ((side % 2 == 0 ? 1 : -1) * plane->normal[side / 2] < across) continue;
-      for (const int i : tool.points) {
-        if (depth(i) > deepest - 0.5 * domain.cloud.spacings[i]) held[i] |= 1 << side;
+    const auto at = [&](int i) { return surface(tool.shape, domain.reference(i)); };
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const int i : tool.points) nearest = std::min(nearest, at(i).gap);
+    nearest = domain.communicator.min(nearest);
+    for (const int i : tool.points) {
+      const Surface here = at(i);
+      if (!(here.gap < nearest + 0.5 * domain.cloud.spacings[i])) continue;
+      for (int side = 0; side < sides; ++side) {
+        if ((side % 2 == 0 ? 1 : -1) * here.normal[side / 2] >= across) held[i] |= 1 << side;
       }
     }
   });
@@ -118,15 +118,16 @@ double soft_end_of(const Body& body, std::size_t b) {
 }
 
 // Pads of 8 layers, four times as wide, whose faces were held were found so much too stiff: by quadratic correspondence
-// 42, 95 and 170 % at K/G = 10, 100 and 1000, by the mean gradient 37, 72 and 101 %; at nodes -4 to 4 %.
+// 39, 77 and 87 % at K/G = 10, 100 and 1000, by the mean gradient 37, 72 and 101 %; at nodes -4 to 4 %.
 std::string bonded_pads(const Body& body, int of_body) {
   double ratio = 0;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    if (body.domain.blocks[b].body == of_body) ratio = std::max(ratio, bulk_over_shear(body.blocks[b].material.law));
+    if (body.domain.blocks[b].body == of_body)
+      ratio = std::max(ratio, materials::bulk_over_shear(body.blocks[b].material.law));
   }
-  if (ratio < hardly_compressible) return "";
+  if (ratio < materials::hardly_compressible) return "";
   return text_of(std::setprecision(4), "; at K = ", std::round(ratio),
-                 " G far more where both ends cannot slide (pads of 8 layers 40 to 170 %; expected Points \"Nodes\")");
+                 " G far more where both ends cannot slide (pads of 8 layers 40 to 100 %; expected Points \"Nodes\")");
 }
 
 double soft_ends_of(const Body& body, int of_body) {
@@ -159,8 +160,8 @@ double stiffer_in_bending(const double* counted, const double* most, int axis, d
 
 }  // namespace
 
-// Measured between two planes, 4, 8, 10 and 20 layers: +67, +26, +20 and +9 %; at nodes by quadratic correspondence -1
-// to -0.1 %.
+// Measured between two planes or boxes, 4, 8, 10 and 20 layers: +67, +26, +20 and +9 %; at nodes by quadratic
+// correspondence -1 to -0.1 %.
 std::string unstrained_ends(const Situation& situation) {
   constexpr double worth_saying = 0.05, worth_saying_bent = 0.1;
   const Domain& domain = situation.scene.body.domain;

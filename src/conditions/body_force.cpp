@@ -13,9 +13,9 @@ double load_at(const Function& value, const Body& body, int i, double t) {
 
 }  // namespace
 
-void BodyForce::add_forces(double t, Body& body) const {
+void BodyForce::add_forces(double t, double part, Body& body) const {
   for (const int c : components) {
-    for (const int i : points) body.force_density[i][c] += load_at(value, body, i, t);
+    for (const int i : points) body.force_density[i][c] += part * load_at(value, body, i, t);
   }
 }
 

@@ -77,17 +77,19 @@ concept IsPrototype = requires(const T& prototype, std::vector<int> points, int 
   { prototype.on(points, index, body) } -> std::same_as<T>;
 };
 
-// Stage::forces. Acts once per whole step, not in substeps, which are for stiff points. With substeps, both functions
-// are called at several times of the step, for the mean. The estimate of the critical time step does not include it: if
-// it is stiff, the deck needs a smaller Safety Factor.
-//   add_forces  adds its force density at time t
-//   add_work    adds the work of these forces, once velocities are final; impulse_time is the time for which they act,
-//               the mean of the steps before and after t
+// Stage::forces. With substeps, add_forces and add_work may be called at several times of a step, for the mean. The
+// estimate of the critical time step does not include it: if it is stiff, the deck needs a smaller Safety Factor.
+//   add_forces   adds `part` of its force density at time t
+//   add_work     adds the work of these forces, once velocities are final; impulse_time is the time for which they act
+//   in_substeps  its part for some points
+//   points       member: owned points
 template <class T>
-concept AddsForces = requires(const T& condition, double t, double impulse_time, Body& body, const Body& after,
-                              ImpulseWork& work) {
-  { condition.add_forces(t, body) } -> std::same_as<void>;
+concept AddsForces = requires(const T& condition, double t, double part, double impulse_time, Body& body,
+                              const Body& after, ImpulseWork& work, const MovingPoints& some) {
+  { condition.add_forces(t, part, body) } -> std::same_as<void>;
   { condition.add_work(t, impulse_time, after, work) } -> std::same_as<void>;
+  { condition.in_substeps(some) } -> std::same_as<T>;
+  { condition.points } -> std::convertible_to<const std::vector<int>&>;
 };
 
 // If acts_at_start: for the initial velocities, and for the check for undeclared contact (setup), which predicts the

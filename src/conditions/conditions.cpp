@@ -1,6 +1,7 @@
 #include "conditions/conditions.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <string>
 
 #include "base/errors.hpp"
@@ -45,8 +46,51 @@ bool depend_on_time(const Conditions& conditions, Stage stage) {
   return any;
 }
 
-void add_forces(const Conditions& conditions, double t, Body& body) {
-  conditions.visit([&](const AddsForces auto& one) { one.add_forces(t, body); });
+Conditions loads_of(const Conditions& conditions) {
+  Conditions loads;
+  conditions.visit([&](const AddsForces auto& one) { loads.add(one); });
+  return loads;
+}
+
+namespace {
+
+// Collective. True if these points on all ranks are all those of the bodies to which they belong.
+bool are_whole_bodies(const std::vector<int>& points, const Body& body) {
+  const auto bodies = static_cast<std::size_t>(body.domain.body_count());
+  std::vector<std::uint8_t> marks(body.owned(), 0);
+  for (const int i : points) marks[i] = 1;
+  std::vector<double> has(2 * bodies, 0);  // points that are not among these, and that are
+  for (int i = 0; i < body.owned(); ++i) has[2 * body.domain.body_of(i) + marks[i]] = 1;
+  body.domain.communicator.max(has);
+  bool whole = true;
+  for (std::size_t b = 0; b < bodies; ++b) whole = whole && has[2 * b] * has[2 * b + 1] == 0;
+  return whole;
+}
+
+}  // namespace
+
+std::pair<Conditions, Conditions> on_wholes_and_parts(const Conditions& loads, const Body& body) {
+  std::pair<Conditions, Conditions> found;
+  loads.visit(
+      [&](const AddsForces auto& one) { (are_whole_bodies(one.points, body) ? found.first : found.second).add(one); });
+  return found;
+}
+
+std::vector<std::uint8_t> moved_apart_in_time(const Conditions& conditions, const Body& body) {
+  std::vector<std::uint8_t> marks;
+  conditions.visit([&]<class T>(const T& one) {
+    if constexpr (AddsForces<T> || std::same_as<T, PrescribedMotion>) {
+      const std::vector<Function> values = one.values_at_points();
+      if (std::ranges::none_of(values, &Function::depends_on_time) || are_whole_bodies(one.points, body)) return;
+      marks.resize(body.owned(), 0);
+      for (const int i : one.points) marks[i] = 1;
+    }
+  });
+  return marks;
+}
+
+void add_forces(const Conditions& conditions, double t, double part, Body& body) {
+  conditions.visit([&](const AddsForces auto& one) { one.add_forces(t, part, body); });
 }
 
 void add_work_of_forces(const Conditions& conditions, double t, double impulse_time, const Body& body,
@@ -71,6 +115,7 @@ Conditions in_substeps(const Conditions& conditions, const MovingPoints& moving)
   conditions.visit([&](const ChangesVelocities auto& one) {
     if (auto part = one.in_substeps(moving)) some.add(std::move(*part));
   });
+  conditions.visit([&](const AddsForces auto& one) { some.add(one.in_substeps(moving)); });
   return some;
 }
 

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -43,6 +44,8 @@ class Conditions {
     pass_each(in_order_, visit);
   }
 
+  std::size_t count() const { return in_order_.size(); }
+
   // The first value on this rank so far that was not finite: its path in the deck, time and position; "" if there is
   // none.
   std::string first_not_finite() const;
@@ -65,8 +68,16 @@ class Conditions {
 // True if any condition of a stage has a value that changes with time.
 bool depend_on_time(const Conditions& conditions, Stage stage);
 
-// Adds the forces of conditions at time t (s) to the force density.
-void add_forces(const Conditions& conditions, double t, Body& body);
+// The conditions that add forces.
+Conditions loads_of(const Conditions& conditions);
+// Collective. Those of such conditions that act on all points of each body that they act on, and the others.
+std::pair<Conditions, Conditions> on_wholes_and_parts(const Conditions& loads, const Body& body);
+// Collective. Marks of owned points that loads and prescribed motions of a part of a body may move otherwise than the
+// rest within a step, because they change with time; empty if there are none on this rank.
+std::vector<std::uint8_t> moved_apart_in_time(const Conditions& conditions, const Body& body);
+
+// Adds `part` of the forces of conditions at time t (s) to the force density.
+void add_forces(const Conditions& conditions, double t, double part, Body& body);
 
 // Adds the work of these forces over `impulse_time` (s), once velocities are final.
 void add_work_of_forces(const Conditions& conditions, double t, double impulse_time, const Body& body,
@@ -77,7 +88,7 @@ void add_work_of_forces(const Conditions& conditions, double t, double impulse_t
 void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body, ImpulseWork& work,
                        ReactionImpulses& impulses);
 
-// The conditions that act at times between whole steps.
+// The parts of conditions that act on some points, at times between whole steps.
 Conditions in_substeps(const Conditions& conditions, const MovingPoints& moving);
 
 // Velocities of owned points at time t: those that conditions impose (of positions the slope over the `moment`, s,

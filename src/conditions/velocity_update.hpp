@@ -29,11 +29,11 @@ struct PointTimeSteps {
   }
   // The value at t + dt (s) of the motion value(t). At the final time a motion that ends then, such as a table at its
   // last row or where its value is no number any more, goes on at its last velocity: else the output would contain
-  // velocities of the stop.
+  // velocities of the stop. So does one that turns then, as the sum of a table that ends and another motion does.
   template <class Motion>
   double after(const Motion& value, double t, double dt) const {
     const double next = value(t + dt);
-    const bool ends = none_follows && (!std::isfinite(next) || next == value(t + 2 * dt));
+    const bool ends = none_follows && (!std::isfinite(next) || next == value(t + 2 * dt) || turns(value, t, dt));
     return ends ? 2 * value(t) - value(t - dt) : next;
   }
   // The velocity over dt (s) from t of a motion that has the velocity `value` at a time. At the final time one that
@@ -41,10 +41,18 @@ struct PointTimeSteps {
   template <class Velocity>
   double velocity_after(const Velocity& value, double t, double dt) const {
     const double next = value(t + 0.5 * dt);
-    if (!none_follows || (std::isfinite(next) && next != value(t + 1.5 * dt))) return next;
+    const bool ends =
+        none_follows && (!std::isfinite(next) || next == value(t + 1.5 * dt) || turns(value, t - 0.5 * dt, dt));
+    if (!ends) return next;
     const double now = value(t), before = value(t - 0.5 * dt);
     const bool goes_on = std::abs(now - before) <= 2 * std::abs(before - value(t - dt));
     return goes_on ? 2 * now - before : before;
+  }
+  // True if the slope of a value changes far more at t than over the two steps before.
+  template <class Value>
+  static bool turns(const Value& value, double t, double dt) {
+    const auto bend = [&](double at) { return std::abs(value(at + dt) - 2 * value(at) + value(at - dt)); };
+    return bend(t) > 2 * (bend(t - dt) + bend(t - 2 * dt));
   }
 };
 

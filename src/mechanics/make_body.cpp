@@ -54,6 +54,7 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
     if (block.is_quadratic()) {
       block.cells.use(block.integration_points());
       block.flowed.use(block.points.size());
+      block.shares_volume = materials::shares_volume(block.material.law);
     }
     block.first_integration_point = cells;
     cells += block.cells->places();

@@ -72,6 +72,9 @@ struct MaterialBlock {
 
   // The body moves rigidly, without strain (rigid_motion.hpp), so that nothing is computed.
   bool in_rigid_motion = false;
+
+  // The integration points of each cell share their change of volume from the start, not only once they flow.
+  bool shares_volume = false;
   double rest_frequency_bound = 0;  // 1/s, the largest of its undeformed points times their fraction of the step
 
   int lattice = -1;            // index in domain.families.lattices if its points are on one

@@ -1,4 +1,5 @@
 // The checks of contact, and of what passes through what: bodies, tools and planes.
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 
@@ -132,11 +133,17 @@ void Monitor::check_planes(double time) {
         [&](int i) { return side(i) * mirror.distance(domain.current(i)); });
     if (passed.points == 0) continue;
     if (passed.one < 0) return warn_once(beyond_plane, "");
+    const bool is_mirrored = std::ranges::any_of(domain.mirrors, [&](const Mirror& other) {
+      return other.number == mirror.number && other.body == domain.body_of(passed.one);
+    });
     return warn_once(
         beyond_plane,
         text_of(at(time), "points have gone through a Symmetry Plane, ", passed.points, " by now, as ",
                 locate(body_, passed.one),
-                ". Contact does not see mirror images; expected a Rigid Plane there too, or the whole body"));
+                is_mirrored
+                    ? ". Contact does not see mirror images; expected a Rigid Plane there too, or the whole body"
+                    : ", whose body has no mirror image: right if this body is whole; if the scene is half of a "
+                      "symmetric one, expected a Rigid Plane there"));
   }
 }
 

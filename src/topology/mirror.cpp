@@ -57,24 +57,24 @@ std::vector<Reflection> images_of(const std::vector<Mirror>& mirrors, const Eige
   return all;
 }
 
-// A number below 2⁴⁰ (Images::bits) for a position: shared nodes at one position have one, others almost certainly
-// another.
-std::int64_t number_at(const Vector& X, double period) {
+// A number below 2⁴⁰ (Images::bits) for a position: shared nodes at one position and of one seam have one, others
+// almost certainly another.
+std::int64_t number_at(const Vector& X, double period, std::int64_t seam) {
   constexpr double resolution = 1e-7;  // of the period; with an offset that no mesh has
-  std::uint64_t hash = 0;
+  auto hash = static_cast<std::uint64_t>(seam);
   for (int c = 0; c < 3; ++c) {
     hash += static_cast<std::uint64_t>(std::llround(X[c] / (resolution * period) + 0.2718281828));
     hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;  // splitmix64
     hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
     hash ^= hash >> 31;
   }
-  constexpr int last = Images::bits - 1;  // set here, and in no number of a mesh
-  return static_cast<std::int64_t>((hash & ((std::uint64_t{1} << last) - 1)) | std::uint64_t{1} << last);
+  return (static_cast<std::int64_t>(hash) & (of_place - 1)) | of_place;
 }
 
 }  // namespace
 
-std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vector<Mirror>& planes, double spacing) {
+std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vector<Mirror>& planes, double spacing,
+                            std::int64_t seam) {
   const bool repeats = std::ranges::any_of(planes, [](const Mirror& plane) { return plane.period > 0; });
   std::int64_t bits = 0;
   Vector lower = X;  // its image on lower sides
@@ -86,7 +86,7 @@ std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vec
     if (repeats) lower += ((is_lower ? 0 : plane.period) - plane.distance(X)) * plane.normal;
     bits |= std::int64_t{1} << (first_plane_bit + plane.bit + (is_lower ? lower_side : 0));
   }
-  return (period > 0 ? number_at(lower, period) : number) | bits;
+  return (period > 0 ? number_at(lower, period, seam) : number) | bits;
 }
 
 Images::Images(const std::vector<Mirror>& mirrors, const std::vector<Eigen::AlignedBox3d>& boxes, double reach) {

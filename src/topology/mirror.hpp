@@ -35,10 +35,13 @@ struct Period {
 };
 
 // The number of a shared node (cloud.hpp) at X, with the bits of the mirrors that it lies on. On periodic sides, shared
-// nodes that are images of each other have one number; those on an upper side have its bit, those on a lower one the
-// bit that is `lower_side` higher. `spacing`: in m.
-std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vector<Mirror>& planes, double spacing);
+// nodes that are images of each other have one number, which has the bit `of_place`; those on an upper side have its
+// bit, those on a lower one the bit that is `lower_side` higher. `spacing`: in m. `seam`: tells shared nodes at one
+// place of a side from each other; 0 where there is one only.
+std::int64_t shared_node_at(const Vector& X, std::int64_t number, const std::vector<Mirror>& planes, double spacing,
+                            std::int64_t seam = 0);
 constexpr int lower_side = 3;
+constexpr std::int64_t of_place = std::int64_t{1} << 39;  // below Images::bits, and in no number of a mesh
 
 // Maps a point to its image: a product of reflections or a sum of periods, X → turn X + shift.
 struct Reflection {

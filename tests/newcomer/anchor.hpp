@@ -24,8 +24,9 @@ struct Anchor {
   std::vector<Function> values_at_points() const { return {}; }
   Anchor on(std::vector<int> all, int, const Body&) const { return {std::move(all), stiffness}; }
 
-  void add_forces(double, Body& body) const {
-    for (const int i : points) body.force_density[i] -= stiffness * body.displacement(i);
+  Anchor in_substeps(const MovingPoints& moving) const { return {moving.among(points), stiffness}; }
+  void add_forces(double, double part, Body& body) const {
+    for (const int i : points) body.force_density[i] -= part * stiffness * body.displacement(i);
   }
   void add_work(double, double impulse_time, const Body& body, ImpulseWork& work) const {
     for (const int i : points) {

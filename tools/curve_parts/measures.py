@@ -69,11 +69,7 @@ def mean_between(strain, stress, low, high):
 
 def crossing(x, y, level):
     """The x from which y stays above a level; None if it does not, or always is."""
-    below = np.flatnonzero(y < level)
-    if len(below) == 0 or below[-1] == len(y) - 1:
-        return None
-    i = below[-1]
-    return float(x[i] + (level - y[i]) / (y[i + 1] - y[i]) * (x[i + 1] - x[i]))
+    return first_fall(x[::-1], y[::-1] - level) if y[-1] > level else None
 
 
 def line(strain, stress, low, high):

@@ -1,4 +1,5 @@
 """Force and shortening from a deck and its history; the options that name them."""
+import glob
 import itertools
 import os
 import re
@@ -163,23 +164,33 @@ def of_another(deck, path, results):
     read = [name for name in (None if ran else deck.path, mesh) if name and os.path.isfile(name)]
     newer = [name for name in read if os.path.getmtime(name) > os.path.getmtime(path)]
     changed = ran and ", ".join(deck.changed_from(ran, ("Output", "History", "Restart", "Watch")))
-    why = f"{deck.path} has been changed since the run, in {changed}" if changed else newer and f"older than {' and '.join(newer)}, if changed since"
+    why = f"older than {' and '.join(newer)}, if changed since" if newer else None
+    if changed and ran.path == checkpoint_of(deck, results):
+        why = f"{deck.path} has been changed since the run, in {changed}"
+    elif changed:
+        why = f"of the run that left {ran.path}, whose deck differs in {changed}"
     return why and f"WARNING: {why}: motion and size here may not be those of its forces; run it again"
 
 
+def checkpoint_of(deck, results):
+    return os.path.join(results, deck.get("Restart", "Filename") or os.path.splitext(os.path.basename(deck.path))[0] + ".restart")
+
+
 def deck_that_ran(deck, path, results):
-    """The deck of the run, by the checkpoint that it left with its history; None without one."""
+    """The deck of the run, by the newest checkpoint that is as new as its history and names it; None without one."""
     import netCDF4
 
-    name = deck.get("Restart", "Filename") or os.path.splitext(os.path.basename(deck.path))[0] + ".restart"
-    checkpoint = os.path.join(results, name)
-    if not os.path.isfile(checkpoint) or os.path.getmtime(checkpoint) < os.path.getmtime(path) - 1:  # s; of a run before
-        return None
-    try:
-        with netCDF4.Dataset(checkpoint) as file:
-            return Deck.of(checkpoint, in_xml(checkpoint, file.deck))
-    except (OSError, AttributeError, SyntaxError):  # damaged, or of an older program
-        return None
+    found = {checkpoint_of(deck, results), *glob.glob(os.path.join(glob.escape(results), "*.restart"))}
+    ages = {name: os.path.getmtime(path) - os.path.getmtime(name) for name in found if os.path.isfile(name)}
+    for checkpoint in sorted((name for name in ages if ages[name] < 1), key=ages.get):  # s; others are of runs before
+        try:
+            with netCDF4.Dataset(checkpoint) as file:
+                ran = Deck.of(checkpoint, in_xml(checkpoint, file.deck))
+        except (OSError, AttributeError, SyntaxError):  # damaged, or of an older program
+            continue
+        if ran.get("History", "Filename") == deck.get("History", "Filename"):
+            return ran
+    return None
 
 
 def late_begin(deck, times):

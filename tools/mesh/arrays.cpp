@@ -21,23 +21,25 @@ static_assert(std::endian::native == std::endian::little, "the arrays are little
 
 constexpr const char* magic = "strut-mesh arrays 1";
 constexpr std::size_t longest_line = 1000;
-constexpr std::size_t chunk = 1 << 16;  // numbers per read
+constexpr std::int64_t chunk = 1 << 16;  // numbers per read
 constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t most_voxels = most / 8;  // solid ones: the corners of cells are counted
 constexpr int most_factor = 16;
 
+// Takes bodies and their numbers one after the other.
 class ArraysReader {
  public:
-  ArraysReader(std::istream& stream, std::string source) : stream_(stream), source_(std::move(source)) {}
+  ArraysReader(std::istream& stream, const std::string& source) : stream_(stream), source_(source) {}
 
   io::Mesh read(std::string* summary) {
     if (line() != magic) fail(std::string("it does not begin with the line '") + magic + "'");
     if (line() != "nodes 0") fail("expected the line 'nodes 0', then voxels");
-    for (std::string header = line(); header != "end"; header = line()) read_voxels(header);
+    io::Mesh mesh;
+    for (std::string header = line(); header != "end"; header = line()) append(mesh, read_voxels(header));
     if (stream_.peek() != std::istream::traits_type::eof()) fail("there are data after 'end'");
-    if (mesh_.blocks.empty()) fail("the mesh has no elements");
+    if (mesh.blocks.empty()) fail("the mesh has no elements");
     if (summary != nullptr) *summary = summary_;
-    return std::move(mesh_);
+    return mesh;
   }
 
  private:
@@ -53,20 +55,18 @@ class ArraysReader {
     return text;
   }
 
-  // Calls take(number) for each of the next `numbers` numbers.
-  template <class Number, class Take>
-  void each(std::int64_t numbers, const Take& take) {
-    std::vector<Number> buffer(std::min<std::int64_t>(numbers, chunk));
-    for (std::int64_t done = 0; done < numbers; done += std::ssize(buffer)) {
-      buffer.resize(std::min<std::int64_t>(numbers - done, chunk));
-      stream_.read(reinterpret_cast<char*>(buffer.data()),
-                   static_cast<std::streamsize>(buffer.size() * sizeof(Number)));
-      if (!stream_) {
+  template <class Number>
+  std::vector<Number> numbers(std::int64_t count) {
+    std::vector<Number> found;
+    for (std::int64_t done = 0; done < count; done = std::ssize(found)) {
+      found.resize(std::min(count, done + chunk));
+      const std::size_t bytes = (found.size() - done) * sizeof(Number);
+      if (!stream_.read(reinterpret_cast<char*>(&found[done]), static_cast<std::streamsize>(bytes))) {
         const std::int64_t got = done + stream_.gcount() / static_cast<std::int64_t>(sizeof(Number));
-        fail_here(text_of(": it ends after ", got, " of ", numbers, " numbers"));
+        fail_here(text_of(": it ends after ", got, " of ", count, " numbers"));
       }
-      for (const Number number : buffer) take(number);
     }
+    return found;
   }
 
   // The number that a word of a header is.
@@ -99,44 +99,37 @@ class ArraysReader {
 
   // Sets the grid's size, and returns the lower corner of the box.
   Vector read_place(VoxelGrid& grid) {
-    std::vector<double> numbers;
-    each<double>(6, [&](double number) { numbers.push_back(number); });
-    const Vector edges(numbers[0], numbers[1], numbers[2]), origin(numbers[3], numbers[4], numbers[5]);
+    const std::vector<double> place = numbers<double>(6);
+    const Vector edges(place.data()), origin(place.data() + 3);
     grid.size = edges.array() * grid.cells.cast<double>();
     if (edges.minCoeff() > 0 && edges.prod() > 0 && grid.size.allFinite() && origin.allFinite()) return origin;
     fail_here(": expected three edges of a voxel > 0 and the lower corner of the box, in m");
   }
 
   std::vector<int> read_solid(std::int64_t count, const VoxelGrid& grid) {
+    const std::vector<std::int32_t> places = numbers<std::int32_t>(3 * count);
     std::vector<int> solid;
-    Eigen::Array3i at;
-    int axis = 0;
-    each<std::int32_t>(3 * count, [&](std::int32_t place) {
-      const auto voxel = [&] { return ", voxel " + std::to_string(solid.size()); };
-      if (place < 0 || place >= grid.cells[axis]) fail_here(voxel() + " is not in the box");
-      at[axis++] = place;
-      if (axis < 3) return;
-      axis = 0;
+    for (std::int64_t v = 0; v < count; ++v) {
+      const Eigen::Array3i at(&places[3 * v]);
+      if ((at < 0).any() || (at >= grid.cells).any()) fail_here(text_of(", voxel ", v, " is not in the box"));
       const int index = grid.index(at[0], at[1], at[2]);
-      if (!solid.empty() && index <= solid.back()) fail_here(voxel() + " is out of order: x runs fastest, z slowest");
+      if (!solid.empty() && index <= solid.back()) {
+        fail_here(text_of(", voxel ", v, " is out of order: x runs fastest, z slowest"));
+      }
       solid.push_back(index);
-    });
+    }
     return solid;
   }
 
   std::vector<double> read_fills(const std::string& kind, std::int64_t count) {
     if (kind != "solid" && kind != "grey") fail_here(" are '" + kind + "', expected solid or grey");
-    std::vector<double> fills;
-    each<double>(kind == "grey" ? count : 0, [&](double fill) {
-      if (!(fill > 0 && fill <= 1)) {
-        fail_here(text_of(", voxel ", fills.size(), ": a part of ", fill, " is solid, expected one > 0 to 1"));
-      }
-      fills.push_back(fill);
-    });
-    return fills;
+    std::vector<double> fills = numbers<double>(kind == "grey" ? count : 0);
+    const auto wrong = std::ranges::find_if_not(fills, [](double fill) { return fill > 0 && fill <= 1; });
+    if (wrong == fills.end()) return fills;
+    fail_here(text_of(", voxel ", wrong - fills.begin(), ": a part of ", *wrong, " is solid, expected one > 0 to 1"));
   }
 
-  void read_voxels(const std::string& header) {
+  io::Mesh read_voxels(const std::string& header) {
     const std::vector<std::string> words = words_of(header);
     user_ = "voxels '" + words[1] + "'";
     const auto count = number<std::int64_t>(words[2], 0, most_voxels, "their number");
@@ -156,13 +149,12 @@ class ArraysReader {
     // Faces that the material does not touch have no set.
     std::erase_if(body.node_sets, [](const io::Mesh::NodeSet& set) { return set.nodes.empty(); });
     for (io::Mesh::NodeSet& set : body.node_sets) set.name = words[1] + "_" + set.name;
-    append(mesh_, body);
+    return body;
   }
 
   std::istream& stream_;
-  std::string source_;
+  const std::string& source_;
   std::string user_;  // of the data that are read, for messages
-  io::Mesh mesh_;
   std::string summary_;
 };
 

@@ -36,11 +36,6 @@ class Camera:
         self.width, self.height = max(16, int(np.ceil(size[0] / fit))), max(16, int(np.ceil(size[1] / fit)))
         self.pixel = fit / zoom
 
-    def position(self, place):
-        """The pixel (column, row) at which a place is seen."""
-        right, up, _ = (self.seen(np.asarray(place)) - self.middle) / self.pixel
-        return 0.5 * self.width + right, 0.5 * self.height - up
-
     def aim(self, camera):
         """Sets VTK's camera."""
         focus = self.middle @ self.axes

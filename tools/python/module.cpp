@@ -288,17 +288,19 @@ std::string problems_of(const std::string& text, const std::string& name, const 
 PYBIND11_MODULE(_core, module) {
   using namespace strut;
   py::register_exception<Error>(module, "Error", PyExc_RuntimeError);
-  module.def("version", [] { return build_facts(); });
+  module.def("version", &build_facts, "The version of strut, and how it was built.");
   module.def("parsed", &parsed);
   module.def("problems", &problems_of);
   module.def("rank", [] { return world().rank(); });
   module.def("any", [](bool mine) { return world().max(mine ? 1.0 : 0.0) > 0; });
   module.def("end_job", &end_job);
   module.def("finish", [] { runtime.reset(); });
-  module.def("set_threads", [](int count) {
+  const auto set_threads_of_ranks = [](int count) {
     world();  // MPI says how many it allows
     if (const std::string problem = set_threads(count); !problem.empty()) throw Error(problem);
-  });
+  };
+  module.def("set_threads", set_threads_of_ranks, py::arg("count"),
+             "The number of threads of each rank, as strut --threads.");
 
   py::class_<io::Mesh>(module, "Mesh")
       .def(py::init<>())

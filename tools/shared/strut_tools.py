@@ -135,8 +135,10 @@ def check_output(path, *read):
 
 
 def check_input(path):
-    """Checks an input path: a pipe without a writer would block for ever."""
-    if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+    """Checks the path of an input, a file or a folder: a pipe without a writer would block for ever."""
+    if not os.path.exists(path):
+        fail(f"{path} does not exist")
+    if not os.path.isfile(path) and not os.path.isdir(path):
         fail(f"{path} is a pipe or a device, expected a file")
 
 

@@ -9,6 +9,7 @@ from .faces import FACES
 ORDER = ("xx", "yy", "zz", "yz", "zx", "xy")
 PAIRS = ((0, 0), (1, 1), (2, 2), (1, 2), (2, 0), (0, 1))
 UNMIRRORED = ("gyroid", "diamond")  # lattices, of struts or sheets, without mirror planes across the axes
+RELAXATION = "ParameterList[@name='Relaxation']"
 KEPT = ("Discretization", "Node Sets", "Materials", "Blocks")
 
 
@@ -49,11 +50,11 @@ def deck_of(deck, kind, cases, center, strain, sets):
     root = tree.Element("ParameterList")
     root.extend(deck.section(name) for name in KEPT if deck.section(name) is not None)
     found = Deck.of(deck.path, tree.tostring(root, "unicode"))
-    for block in found.sections("Blocks").values():  # bonds of a stiffness do not break
-        for key in [e for e in block.findall("Parameter") if e.get("name") == "Damage Model"]:
-            block.remove(key)
-    for material in relaxing(found):  # the elastic constants are those of fast loading; a load case would last 1 s
-        material.remove(relaxation_of(material))
+    # Bonds of a stiffness do not break; the elastic constants are those of fast loading, as a load case would last 1 s.
+    for name, part in (("Blocks", "Parameter[@name='Damage Model']"), ("Materials", RELAXATION)):
+        for owner in found.sections(name).values():
+            for one in owner.findall(part):
+                owner.remove(one)
     points = {box_set(face): text for face, text in sets.items()}
     by_place = {name: text for name, text in points.items() if not text[0].isdigit()}
     if by_place and found.section("Node Sets") is None:
@@ -72,21 +73,14 @@ def deck_of(deck, kind, cases, center, strain, sets):
     return Deck.of(deck.path, tree.tostring(found.root, "unicode"))
 
 
-def relaxation_of(material):
-    return next((e for e in material.findall("ParameterList") if e.get("name") == "Relaxation"), None)
-
-
-def relaxing(deck):
-    return [m for m in deck.sections("Materials").values() if relaxation_of(m) is not None]
-
-
 def has_library(deck):
     return any(value_in(m, "Material Model") == "User Library" for m in deck.sections("Materials").values())
 
 
 def meanings(deck, kinds):
     """Lines that say which stiffness it is, where stress changes with time, or a lattice is no mirror image of itself."""
-    told = ["stiffness of fast loading: Relaxation is left out"] if relaxing(deck) else []
+    relaxes = any(m.find(RELAXATION) is not None for m in deck.sections("Materials").values())
+    told = ["stiffness of fast loading: Relaxation is left out"] if relaxes else []
     recipe = deck.recipe()
     turned = [body["lattice"] for body in (recipe.bodies() if recipe else []) if body.get("lattice", "").startswith(UNMIRRORED)]
     if turned and "mixed" in kinds:

@@ -9,8 +9,11 @@ Hoekstra, A procedure for the estimation of the numerical uncertainty of CFD cal
 import math
 from dataclasses import dataclass
 
+from scipy.optimize import brentq
+
 SAFETY = {2: 3.0, 3: 1.25}  # factors of the index, by the number of grids (Roache)
 LOWEST, HIGHEST = 0.5, 2.5  # orders of the asymptotic range: not below half (Eça & Hoekstra), nor half an order above the second
+LEAST = 1e-9                # an order that counts as 0
 SAME = 1e-8                 # relative: tables have nine digits
 GOOD_RATIO = 1.3            # of refinement; below it the observed order is uncertain (Celik et al.)
 
@@ -32,20 +35,16 @@ def observed_order(sizes, values):
     """p of the power law through three grids, the finest first, whose differences have one sign; None: none above 0.
 
     With a = ln(h2/h1), b = ln(h3/h2): (f3 - f2)/(f2 - f1) = exp(p a) (exp(p b) - 1)/(exp(p a) - 1). The right side grows with
-    p, from b/a at 0. Celik et al. iterate the same equation as a fixed point, which need not converge for b > 2 a; here it is
-    solved by bisection."""
+    p, from b/a at 0. Celik et al. iterate the same equation as a fixed point, which need not converge for b > 2 a."""
     a, b = math.log(sizes[1] / sizes[0]), math.log(sizes[2] / sizes[1])
     ratio = (values[2] - values[1]) / (values[1] - values[0])
-    if ratio <= b / a:
-        return None
 
     def excess(p):
         return p * b + math.log(math.expm1(-p * b) / math.expm1(-p * a)) - math.log(ratio)
 
-    low, high = 0.0, (math.log(ratio) - math.log(min(1, b / a))) / b
-    while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (low, middle) if excess(middle) > 0 else (middle, high)
-    return middle
+    if excess(LEAST) >= 0:
+        return None
+    return brentq(excess, LEAST, 1 + (math.log(ratio) - math.log(min(1, b / a))) / b, xtol=1e-14)
 
 
 def of_grids(sizes, values, theory):

@@ -60,8 +60,6 @@ def read(path, raw=None, array=None, unit=None):
     """raw: format of plain numbers; unit: of the file's lengths, instead of the one in the file, as a word."""
     if re.search(r"[*?\[]", path) and not os.path.exists(path):
         return slices(sorted_naturally(glob.glob(path)), path)
-    if not os.path.exists(path):
-        fail(f"{path} does not exist")
     check_input(path)
     ending = ending_of(path)
     if os.path.isdir(path):

@@ -1,6 +1,7 @@
 """Finds solid voxels, and selects those to keep. Arrays are (z, y, x), edges of a voxel (x, y, z) in m."""
 import numpy as np
 from scipy import ndimage
+from scipy.optimize import brentq
 
 from strut_tools import fail
 
@@ -122,15 +123,14 @@ def levels_of(values, solid, cell):
 
 def level_for(values, void, solid, dropped, count):
     """The level of solid at which the kept voxels and their rims sum up to `count` whole voxels."""
-    there = with_rims(solid, dropped, np.sign(values - np.float32(void)) * (1 if values[solid].mean() > void else -1))
-    above = np.abs(values[there].astype(float) - void)
-    low, high = 0.0, float(above.sum() / count)  # at the upper bound no voxel is more than full, at the lower all are
+    sign = 1 if values[solid].mean() > void else -1
+    above = sign * (values - np.float32(void))
+    above = above[with_rims(solid, dropped, above)].astype(float)
     if not len(above) > count:
         fail(f"--density: kept voxels and their rims are {len(above):,}, fewer than the {count:.0f} that are wanted")
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if np.minimum(above / middle, 1).sum() > count else (low, middle)
-    return void + (high if values[solid].mean() > void else -high)
+    most = 2 * above.sum() / count  # no voxel is more than full, and the sum is half of what is wanted
+    level = brentq(lambda level: np.minimum(above / level, 1).sum() - count, above.min(), most, xtol=1e-12 * most)
+    return void + sign * level
 
 
 def threshold_for(values, invert, count, kept):

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import ndimage
+from scipy.optimize import brentq
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -183,8 +184,6 @@ def moved_to(values, edge, share, in_part):
     if not in_part:
         level = np.quantile(values, 1 - share, method="higher")
         return values - np.float32(level), -float(level)
-    low, high = float(values.min()) - edge, float(values.max()) + edge
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if fills_of(values, middle - 0.5 * edge, middle + 0.5 * edge).mean(dtype=float) > share else (low, middle)
-    return values - np.float32(high), -high
+    level = brentq(lambda level: fills_of(values, level - 0.5 * edge, level + 0.5 * edge).mean(dtype=float) - share,
+                   float(values.min()) - edge, float(values.max()) + edge, xtol=1e-9 * edge)
+    return values - np.float32(level), -level

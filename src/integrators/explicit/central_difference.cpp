@@ -36,8 +36,8 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
       fracture_(std::move(fracture)),
       control_(control),
       length_(control),
+      loads_(conditions_),
       time_(0) {
-  loads_change_ = depend_on_time(conditions_, Stage::forces);
   energies_.start(body_);
   body_.time_levels->clear();
 }
@@ -78,17 +78,17 @@ void CentralDifference::advance_velocity(double final_time) {
   static Teuchos::Time& timer = phase("Motion and conditions");
   length_.choose(time_, final_time, contact_.stiffness(), exposed_are_pushed_, body_);
   const Timed timed(timer);
-  choose_load_times(final_time);
   const double before = length_.previous_dt(), after = length_.dt(), impulse_time = 0.5 * (before + after);
   const bool is_first = before == 0;
   const std::vector<Vector> inner = is_first ? *body_.force_density : std::vector<Vector>();
-  add_loads();
+  loads_.add({time_, before, after, final_time}, body_);
   // Initial velocities belong to the initial time, other velocities to mid-steps: the first impulse lasts half a step.
   if (is_first) body_.velocity = predicted_velocities(conditions_, time_, after, body_);
   mid_steps_.before = before / (before + after);
   for_each_point(0, body_.owned(), [&](int i) { kick(i, impulse_time); });
   constrain(impulse_time);
   count_work(impulse_time);
+  loads_.end_whole_step();
   if (mid_steps_.before != 0.5) even_out();
   if (energies_.has_begun()) return;
   energies_.begin_at_this_impulse();
@@ -109,8 +109,13 @@ double CentralDifference::energy_of_half_step(const std::vector<Vector>& inner) 
 void CentralDifference::advance_position(bool with_diagnostics) {
   const bool substeps_of_rigid =
       multi_stepping_.level_count() > 0 && std::ranges::any_of(body_.blocks, &MaterialBlock::in_rigid_motion);
-  update_rigid_motion(body_, substeps_of_rigid ? met_points(body_, conditions_, body_.velocity, time_, dt())
-                                               : std::vector<std::uint8_t>());
+  std::vector<std::uint8_t> apart;  // points that the substeps will move otherwise than the rest of their bodies
+  if (substeps_of_rigid) {
+    apart = met_points(body_, conditions_, body_.velocity, time_, dt());
+    if (apart.empty()) apart = moved_apart_;
+    for (std::size_t i = 0; i < moved_apart_.size(); ++i) apart[i] |= moved_apart_[i];
+  }
+  update_rigid_motion(body_, apart);
   if (fracture_) {
     fracture_->start_criteria(body_);
     const Domain& domain = body_.domain;
@@ -159,6 +164,7 @@ StepReport CentralDifference::substep(int level, double t) {
   for_each_point(0, count, [&](int n) { drift(moved[n], steps); });
   const double impulse_time = std::ldexp(dt(), -level);
   const StepReport report = multi_stepping_.forces(body_, level, impulse_time, t);
+  loads_.add({.time = t, .before = dt(), .after = dt(), .level = level}, body_);
   for_each_point(0, count, [&](int n) { kick(moved[n], impulse_time); });
   ReactionImpulses& impulses = reactions_.of_substeps();
   const std::vector<Vector> of_sides = mirror_forces(body_, level, &moved);
@@ -166,31 +172,12 @@ StepReport CentralDifference::substep(int level, double t) {
   ImpulseWork work;
   add_period_work(body_.domain, of_sides, {t, impulse_time, impulse_time, impulse_time}, work);
   change_velocities(conditions_of_level_[level - 1], t, steps, body_, work, impulses);
+  loads_.add_work(impulse_time, body_, work);
   energies_.add(work);
   return report;
 }
 
 // ---- Phases of a step -----------------------------------------------------------------------------------------------
-
-// Loads act once per whole step, with their values at time(). If there are substeps and loads change with time, they
-// act with their mean over the time of the impulse, from one sample per substep.
-void CentralDifference::choose_load_times(double final_time) {
-  const int count = loads_change_ ? 1 << multi_stepping_.level_count() : 1;
-  load_times_.assign(1, time_);
-  if (count == 1) return;
-  const double begin = time_ - 0.5 * length_.previous_dt(), end = std::min(time_ + 0.5 * dt(), final_time);
-  load_times_.clear();
-  for (int n = 0; n < count; ++n) load_times_.push_back(begin + (n + 0.5) / count * (end - begin));
-}
-
-void CentralDifference::add_loads() {
-  if (load_times_.size() == 1) return add_forces(conditions_, load_times_[0], body_);
-  const std::vector<Vector> others = *body_.force_density;  // in place: arrays of Python are views of the values
-  std::fill(body_.force_density.begin(), body_.force_density.end(), Vector::Zero());
-  for (const double t : load_times_) add_forces(conditions_, t, body_);
-  const double part = 1 / static_cast<double>(load_times_.size());
-  for_each_point(0, body_.owned(), [&](int i) { body_.force_density[i] = others[i] + part * body_.force_density[i]; });
-}
 
 void CentralDifference::kick(int i, double impulse_time) {
   body_.previous_velocity[i] = body_.velocity[i];
@@ -213,8 +200,7 @@ void CentralDifference::constrain(double impulse_time) {
 // Adds the work of loads and friction. Call it once velocities are final.
 void CentralDifference::count_work(double impulse_time) {
   ImpulseWork& work = energies_.at_impulse();
-  const double part = impulse_time / static_cast<double>(load_times_.size());
-  for (const double t : load_times_) add_work_of_forces(conditions_, t, part, body_, work);
+  loads_.add_work(impulse_time, body_, work);
   const contact::FrictionWork friction = contact_.friction_work(impulse_time, body_.previous_velocity, body_.velocity);
   work.before.contact += friction.before;
   work.after.contact += friction.after;
@@ -245,7 +231,7 @@ std::vector<Vector> CentralDifference::velocities_now() {
   };
   Snapshot tools;
   pass_tools(Archive::saving_to(tools));
-  add_forces(conditions_, time_, body_);
+  loads_.add({time_, dt(), dt()}, body_);
   for_each_point(0, body_.owned(), [&](int i) { kick(i, dt()); });
   ReactionImpulses impulses = reactions_.none();
   ImpulseWork work;
@@ -283,6 +269,8 @@ std::vector<std::uint8_t> CentralDifference::pushed_now() const {
 
 void CentralDifference::reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed) {
   length_.begin_levels();
+  const std::vector<std::uint8_t> before = multi_stepping_.motion_levels();
+  const bool had_substeps = multi_stepping_.level_count() > 0;
   const PresentStep present = length_.present(body_.may_break());
   if (!may_subcycle(control_)) {
     if (multi_stepping_.level_count() == 0) return;
@@ -293,11 +281,16 @@ void CentralDifference::reassign_levels(StepReport& report, const std::vector<st
                                     rubbed = rubbed_points(body_, conditions_, body_.velocity, time_, dt());
     report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor, present, {pushed, damped, rubbed});
   }
-  restrict_conditions();
+  const bool may_differ = had_substeps || multi_stepping_.level_count() > 0;
+  restrict_conditions(may_differ ? std::optional(before) : std::nullopt);
   length_.take_levels(multi_stepping_);
 }
 
-void CentralDifference::restrict_conditions() {
+// Collective. `before`: levels of the motion in the last step, if they were others.
+void CentralDifference::restrict_conditions(const std::optional<std::vector<std::uint8_t>>& before) {
+  loads_.take_levels(body_, before, multi_stepping_.motion_levels(), multi_stepping_.level_count());
+  moved_apart_.clear();
+  if (multi_stepping_.level_count() > 0) moved_apart_ = moved_apart_in_time(conditions_, body_);
   conditions_of_level_.clear();
   for (int m = 1; m <= multi_stepping_.level_count(); ++m) {
     conditions_of_level_.push_back(in_substeps(conditions_, {multi_stepping_.motion_levels(), m}));
@@ -372,6 +365,7 @@ void CentralDifference::serialize_steps(Archive& archive) {
   archive.number("time", time_);
   archive.points("all points", owned_ids(body_));
   multi_stepping_.serialize(archive, body_);
+  loads_.serialize(archive, body_);
   length_.serialize(archive, body_);
   serialize_tools(archive, conditions_, body_.owned());
   archive.number("most_substeps", most_substeps_);
@@ -385,7 +379,7 @@ void CentralDifference::serialize_steps(Archive& archive) {
   if (fracture_) fracture_->serialize_steps(archive);
   if (!archive.loading()) return;
   new_breaks();
-  restrict_conditions();
+  restrict_conditions(loads_.levels_before());
   if (!may_subcycle(control_) && multi_stepping_.level_count() > 0) length_.ask_for_levels();
   for (MaterialBlock& block : body_.blocks) {
     // The frequency bound at rest is needed in rigid motion, and by ordinary solids, whose bound is always that at

@@ -6,6 +6,7 @@
 #include "contact/contact.hpp"
 #include "fracture/fracture.hpp"
 #include "integrators/explicit/accounts.hpp"
+#include "integrators/explicit/loads.hpp"
 #include "integrators/explicit/multi_time_stepping.hpp"
 #include "integrators/explicit/step_length.hpp"
 #include "mechanics/mechanics.hpp"
@@ -79,8 +80,6 @@ class CentralDifference {
   }
   std::vector<std::uint8_t> pushed_now() const;
 
-  void choose_load_times(double final_time);
-  void add_loads();
   void kick(int i, double impulse_time);
   void constrain(double impulse_time);
   void count_work(double impulse_time);
@@ -90,7 +89,7 @@ class CentralDifference {
   void drift(int i, const PointTimeSteps& steps);
   void drift_to_next_time();
   void reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed);
-  void restrict_conditions();
+  void restrict_conditions(const std::optional<std::vector<std::uint8_t>>& before);
   StepReport substeps();
   StepReport substep(int level, double t);
   void sum_all_forces(bool with_diagnostics);
@@ -108,12 +107,12 @@ class CentralDifference {
   StepLength length_;
   MultiTimeStepping multi_stepping_;
   std::vector<Conditions> conditions_of_level_;  // for the points that move at times between whole steps
+  Loads loads_;
+  std::vector<std::uint8_t> moved_apart_;  // marks of moved_apart_in_time()
   EnergyAccount energies_;
   ReactionAccount reactions_;
   MidSteps mid_steps_;                 // around time()
   std::vector<Vector> mirror_forces_;  // N, at time(), of domain.mirrors or periods on this rank's points
-  std::vector<double> load_times_;     // times of the loads for the impulses at time(), s
-  bool loads_change_ = false;
   double time_;
   int most_substeps_ = 1;
   double updates_ = 0;

@@ -2,7 +2,7 @@
 //
 // The stress of a point acts on its family by impulses: one per step Δt for most points; for a stiff point one every
 // Δt/2^h, for which its stress follows the motion (impulse multiple time stepping, r-RESPA: Tuckerman, Berne & Martyna
-// 1992). So momenta are conserved as without substeps. Contact and loads act once per step.
+// 1992). So momenta are conserved as without substeps. Contact acts once per step, and loads as loads.hpp says.
 #pragma once
 
 #include <utility>

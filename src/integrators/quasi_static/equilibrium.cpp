@@ -146,7 +146,7 @@ void Equilibrium::follow_sides() {
 // Checks the values of conditions at the end of the step, before any point is moved by them.
 void Equilibrium::check_values() {
   const std::vector<Vector> kept = body_.force_density;
-  add_forces(conditions_, t_ + dt_, body_);
+  add_forces(conditions_, t_ + dt_, 1, body_);
   put_back(kept, body_);
   raise_first(body_.domain.communicator, conditions_.first_not_finite());
 }
@@ -160,7 +160,7 @@ Imbalance Equilibrium::evaluate(bool with_diagnostics) {
   residual_ = body_.force_density;
   inner_ = forces_on_points(body_);
   take_side_forces();
-  add_forces(conditions_, t_ + dt_, body_);
+  add_forces(conditions_, t_ + dt_, 1, body_);
   for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volume(i) * (body_.force_density[i] - residual_[i]);
   add_contact();
   add_contact_through_sides();
@@ -208,7 +208,7 @@ void Equilibrium::begin_strained(double t) {
 // The forces on held points, for the reactions before the first step. Those of tools begin with it.
 void Equilibrium::hold_at(double t) {
   constraints_.emplace(held_directions(conditions_, body_, t, 0), body_);
-  add_forces(conditions_, t, body_);
+  add_forces(conditions_, t, 1, body_);
   forces_before_ = forces_ = forces_on_points(body_);
 }
 
@@ -286,7 +286,7 @@ void Equilibrium::go_back() {
   committed_.restore(body_);
   body_.domain.stretch_sides(t_);
   advance(0, t_, true);
-  add_forces(conditions_, t_, body_);
+  add_forces(conditions_, t_, 1, body_);
   add_contact();  // for its energy
   forces_ = forces_before_;
   outer_ = outer_before_;

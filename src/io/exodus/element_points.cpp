@@ -25,21 +25,6 @@ Symmetric moments_of(const Mesh& mesh, const Mesh::Block& block, std::size_t ele
   return cube_moments(block.volumes[element]);
 }
 
-std::vector<std::int64_t> nodes_of(const MeshSlice& slice, const Mesh::Block& block, std::size_t element,
-                                   const std::vector<Mirror>& planes, double spacing) {
-  if (block.type == "SPHERE") return {};
-  const std::size_t size = block.nodes.size() / block.elements();
-  std::vector<std::int64_t> shared_nodes;
-  for (std::size_t n = element * size; n < (element + 1) * size; ++n) {
-    const int node = block.nodes[n];
-    shared_nodes.push_back(shared_node_at(slice.mesh.nodes[node], slice.nodes[node], planes, spacing));
-  }
-  std::sort(shared_nodes.begin(), shared_nodes.end());
-  shared_nodes.erase(std::unique(shared_nodes.begin(), shared_nodes.end()),
-                     shared_nodes.end());  // an element collapsed to a wedge
-  return shared_nodes;
-}
-
 bool is_of_a_body(const Symmetric& moments) {
   if (!moments.allFinite() || !(moments.head<3>().minCoeff() > 0)) return false;
   constexpr double rounding = 1 + 1e-9;
@@ -68,8 +53,8 @@ void check_cell(const PartialCell& cell, const Mesh::Block& block, std::int64_t 
 
 class Converter {
  public:
-  Converter(const MeshSlice& slice, const std::string& file, bool with_cells, const std::vector<Mirror>& planes)
-      : slice_(slice), mesh_(slice.mesh), file_(file), with_cells_(with_cells), planes_(planes) {}
+  Converter(const MeshSlice& slice, const std::string& file, bool with_cells)
+      : slice_(slice), mesh_(slice.mesh), file_(file), with_cells_(with_cells) {}
 
   PointCloud convert() {
     for (const MeshLayout::NodeSet& set : slice_.layout.node_sets) cloud_.set_names.push_back(set.name);
@@ -95,7 +80,6 @@ class Converter {
       }
       add_point(point, sets);
       if (with_cells_) add_cell(block, e);
-      cloud_.shared_nodes.push_back(nodes_of(slice_, block, e, planes_, cloud_.spacings.back()));
     }
   }
 
@@ -121,21 +105,36 @@ class Converter {
   const Mesh& mesh_;
   const std::string& file_;
   const bool with_cells_;
-  const std::vector<Mirror>& planes_;
   PointCloud cloud_;
 };
 
 }  // namespace
 
-PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells,
-                              const std::vector<Mirror>& planes) {
+PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells) {
   check_corners(slice, file);
-  return Converter(slice, file, with_cells, planes).convert();
+  return Converter(slice, file, with_cells).convert();
 }
 
-void add_surfaces(const MeshSlice& slice, const std::vector<Mirror>& planes, const Communicator& communicator,
-                  PointCloud& cloud, FacesOnPlanes* apart) {
-  for (const Face& face : without_continued(surface_of(slice, communicator), slice, planes, communicator)) {
+void add_shared_nodes(const MeshSlice& slice, const std::vector<Mirror>& planes, const std::vector<std::int64_t>& seams,
+                      PointCloud& cloud) {
+  for (const Mesh::Block& block : slice.mesh.blocks) {
+    const std::size_t size = block.type == "SPHERE" ? 0 : nodes_per_element(block.type);
+    for (std::size_t e = 0; e < block.elements(); ++e) {
+      const double spacing = cloud.spacings[cloud.shared_nodes.size()];
+      std::vector<std::int64_t>& shared = cloud.shared_nodes.emplace_back();
+      for (std::size_t n = e * size; n < (e + 1) * size; ++n) {
+        const int node = block.nodes[n];
+        shared.push_back(shared_node_at(slice.mesh.nodes[node], slice.nodes[node], planes, spacing, seams[node]));
+      }
+      std::sort(shared.begin(), shared.end());
+      shared.erase(std::unique(shared.begin(), shared.end()), shared.end());  // an element collapsed to a wedge
+    }
+  }
+}
+
+void add_surfaces(const MeshSlice& slice, const std::vector<Mirror>& planes, const std::vector<std::int64_t>& seams,
+                  const Communicator& communicator, PointCloud& cloud, FacesOnPlanes* apart) {
+  for (const Face& face : without_continued(surface_of(slice, communicator), slice, planes, seams, communicator)) {
     const std::size_t point = static_cast<std::size_t>(face.element);
     if (!slice.mesh.blocks[cloud.blocks[point]].cells.empty()) continue;
     add_face({point, planes_of(planes, face, slice.mesh), face.area,

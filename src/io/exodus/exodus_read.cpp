@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "io/exodus/mesh_points.hpp"
+#include "io/exodus/side_nodes.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
 #include "topology/coincident.hpp"
@@ -107,8 +108,10 @@ PointCloud at_nodes(const MeshSource* file, const MeshLayout& layout, const std:
 PointCloud at_elements(const MeshSource* file, const MeshLayout& layout, const std::string& name, bool with_cells,
                        const std::vector<Mirror>& planes, const Communicator& communicator, FacesOnPlanes* apart) {
   const MeshSlice slice = slice_of_elements(file, layout, communicator);
-  PointCloud cloud = on_all_ranks(communicator, [&] { return points_at_elements(slice, name, with_cells, planes); });
-  if (with_cells) add_surfaces(slice, planes, communicator, cloud, apart);
+  PointCloud cloud = on_all_ranks(communicator, [&] { return points_at_elements(slice, name, with_cells); });
+  const std::vector<std::int64_t> seams = seams_at_sides(slice, planes, cloud.spacings, communicator);
+  add_shared_nodes(slice, planes, seams, cloud);
+  if (with_cells) add_surfaces(slice, planes, seams, communicator, cloud, apart);
   cloud.element_ids = numbers_of(file, MeshSource::On::elements, layout.elements, communicator);
   return cloud;
 }

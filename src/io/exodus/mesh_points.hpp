@@ -11,14 +11,15 @@
 
 namespace strut::io {
 
-// A point for each element, at its centroid; the surfaces of the shapes are not set yet. `file`: name of the mesh, for
-// errors.
-// Throws Error on this rank: see read_exodus.
-PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells,
-                              const std::vector<Mirror>& planes);
+// A point for each element, at its centroid; its shared nodes and the surface of its shape are not set yet. `file`:
+// name of the mesh, for errors. Throws Error on this rank: see read_exodus.
+PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells);
+// `seams`: of the nodes (side_nodes.hpp).
+void add_shared_nodes(const MeshSlice& slice, const std::vector<Mirror>& planes, const std::vector<std::int64_t>& seams,
+                      PointCloud& cloud);
 // Collective. Sets the surfaces of the shapes of those points; partial cells have their own. `apart`: see add_face.
-void add_surfaces(const MeshSlice& slice, const std::vector<Mirror>& planes, const Communicator& communicator,
-                  PointCloud& cloud, FacesOnPlanes* apart);
+void add_surfaces(const MeshSlice& slice, const std::vector<Mirror>& planes, const std::vector<std::int64_t>& seams,
+                  const Communicator& communicator, PointCloud& cloud, FacesOnPlanes* apart);
 
 // A point for each node of `own` that an element uses; the slice must have all elements around these nodes. `numbers`:
 // of these nodes in the mesh. Throws Error on this rank: see read_exodus.

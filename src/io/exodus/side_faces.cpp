@@ -13,13 +13,14 @@ namespace {
 
 using Key = std::array<std::int64_t, 4>;  // the numbers of the corners, the same on both sides, ascending
 
-Key key_of(const Face& face, const Mesh& mesh, const std::vector<Mirror>& sides) {
+Key key_of(const Face& face, const Mesh& mesh, const std::vector<Mirror>& sides,
+           const std::vector<std::int64_t>& seams) {
   constexpr std::int64_t of_number = (std::int64_t{1} << first_plane_bit) - 1;
   const double size = std::sqrt(face.area.norm());
   Key key{};
   for (int c = 0; c < 4; ++c) {
     const int node = face.nodes[c];
-    key[c] = node < 0 ? -1 : shared_node_at(mesh.nodes[node], node, sides, size) & of_number;
+    key[c] = node < 0 ? -1 : shared_node_at(mesh.nodes[node], node, sides, size, seams[node]) & of_number;
   }
   std::ranges::sort(key);
   return key;
@@ -92,7 +93,8 @@ std::vector<SideFace> without_halves(const std::vector<SideFace>& faces, const C
 }  // namespace
 
 std::vector<Face> without_continued(const std::vector<Face>& faces, const MeshSlice& slice,
-                                    const std::vector<Mirror>& planes, const Communicator& communicator) {
+                                    const std::vector<Mirror>& planes, const std::vector<std::int64_t>& seams,
+                                    const Communicator& communicator) {
   std::vector<Mirror> sides;
   std::ranges::copy_if(planes, std::back_inserter(sides), [](const Mirror& plane) { return plane.period > 0; });
   if (sides.empty()) return faces;
@@ -103,7 +105,7 @@ std::vector<Face> without_continued(const std::vector<Face>& faces, const MeshSl
     if (side == sides.end()) {
       surface.push_back(face);
     } else {
-      on_sides.push_back({face, key_of(face, slice.mesh, sides), static_cast<int>(side - sides.begin())});
+      on_sides.push_back({face, key_of(face, slice.mesh, sides, seams), static_cast<int>(side - sides.begin())});
     }
   }
   for (const SideFace& one : without_halves(without_twin(on_sides, communicator), communicator))

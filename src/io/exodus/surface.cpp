@@ -12,11 +12,6 @@ namespace strut::io {
 
 namespace {
 
-// The nodes of Exodus' sides, outward by the right-hand rule.
-constexpr int hexahedron_sides[6][4] = {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6},
-                                        {0, 4, 7, 3}, {0, 3, 2, 1}, {4, 5, 6, 7}};
-constexpr int tetrahedron_sides[4][4] = {{0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}, {0, 2, 1, -1}};
-
 // A side of an element, with its nodes in ascending order as a key to find the other element that has it.
 struct Side {
   std::array<int, 4> key;
@@ -25,11 +20,10 @@ struct Side {
   const int* side;
 };
 
-template <std::size_t size, std::size_t count>
-void add_sides(const Mesh::Block& block, const int (&sides)[count][4], std::int64_t first, std::vector<Side>& all) {
+void add_sides(const Mesh::Block& block, std::size_t size, std::int64_t first, std::vector<Side>& all) {
   for (std::size_t e = 0; e < block.elements(); ++e) {
     const int* nodes = &block.nodes[e * size];
-    for (const auto& side : sides) {
+    for (const auto& side : sides_of(block.type)) {
       Side& added = all.emplace_back(Side{{}, first + static_cast<std::int64_t>(e), nodes, side});
       for (int n = 0; n < 4; ++n) added.key[n] = side[n] < 0 ? -1 : nodes[side[n]];
       std::sort(added.key.begin(), added.key.end());
@@ -41,8 +35,8 @@ std::vector<Side> sides_of(const Mesh& mesh) {
   std::vector<Side> sides;
   std::int64_t elements = 0;
   for (const Mesh::Block& block : mesh.blocks) {
-    if (block.type == "HEX8") add_sides<8>(block, hexahedron_sides, elements, sides);
-    if (block.type == "TET4") add_sides<4>(block, tetrahedron_sides, elements, sides);
+    if (block.type == "HEX8") add_sides(block, 8, elements, sides);
+    if (block.type == "TET4") add_sides(block, 4, elements, sides);
     elements += static_cast<std::int64_t>(block.elements());
   }
   return sides;
@@ -121,6 +115,13 @@ std::vector<Face> faces_of(const Mesh& mesh, const std::vector<Side>& sides, con
 }
 
 }  // namespace
+
+std::span<const int[4]> sides_of(const std::string& type) {
+  static constexpr int hexahedron[6][4] = {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6},
+                                           {0, 4, 7, 3}, {0, 3, 2, 1}, {4, 5, 6, 7}};
+  static constexpr int tetrahedron[4][4] = {{0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}, {0, 2, 1, -1}};
+  return type == "HEX8" ? std::span<const int[4]>(hexahedron) : std::span<const int[4]>(tetrahedron);
+}
 
 bool is_on(const Mirror& plane, const Face& face, const Mesh& mesh) {
   const double size = std::sqrt(face.area.norm());

@@ -9,6 +9,9 @@
 
 namespace strut::io {
 
+// The corners of the sides of a HEX8 or TET4, outward by the right-hand rule; the last one −1 of a triangle.
+std::span<const int[4]> sides_of(const std::string& type);
+
 struct Face {
   int nodes[4];              // the last one −1 for a triangle
   std::int64_t element = 0;  // counted over all blocks of the mesh here, from 0

@@ -24,7 +24,7 @@ class CellTangent {
   // `tangents`: of the integration points (point_tangents), or null for the elastic moduli.
   CellTangent(const Body& body, const MaterialBlock& block, int k, const std::vector<PointTangent>* tangents)
       : body_(body), block_(block), k_(k), tangents_(tangents) {
-    if (block.flowed[k]) shared_.emplace(block, k);
+    if (block.flowed[k] || block.shares_volume) shared_.emplace(block, k);
   }
 
   // δP at the integration points of the cell, for δF there.

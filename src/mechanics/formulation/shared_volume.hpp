@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/math/lanes.hpp"
 #include "base/math/small_tensors.hpp"
@@ -40,6 +41,43 @@ inline void share_traces(const std::array<small::Lanes, 4>& J,
     for (int c = 0; c < 3; ++c) s->c[c] = small::where_positive(where, s->c[c] + change, s->c[c]);
   }
 }
+
+// The same for laws whose energy W follows from the stretch (F-bar: de Souza Neto, Perić, Dutko & Owen, Int. J. Solids
+// Struct. 33, 1996): with the mean volume J̄ the cell has the energy Σ ¼ W(F̄_q), F̄_q = (J̄/J_q)^⅓ F_q, whose derivative
+// is σ_q = J̄/J_q dev σ̄_q + Σ ¼ tr σ̄_r/3, σ̄ the law's stress at F̄.
+class MeanVolume {
+  using Lanes = small::Lanes;
+
+ public:
+  // `J`: of the integration points. Where one is not positive, nothing is shared.
+  explicit MeanVolume(const std::array<Lanes, 4>& J) : least_(J[0]) {
+    Lanes mean = Lanes::Zero();
+    for (const Lanes& one : J) mean += 0.25 * one, least_ = least_.min(one);
+    for (int q = 0; q < 4; ++q) ratio_[q] = small::where_positive(least_, mean / J[q], Lanes::Ones());
+  }
+
+  // Brings the stretch and the determinant of integration point q to the mean volume.
+  void bring(int q, small::Symmetric3<Lanes>& stretch, Lanes& J) const {
+    const Lanes scale = small::lanes_of([&](int l) { return std::cbrt(ratio_[q][l]); });
+    for (Lanes& number : stretch.c) number *= scale;
+    J *= ratio_[q];
+  }
+
+  // From the law's stresses to those of the integration points.
+  void share(const std::array<small::Symmetric3<Lanes>*, 4>& stresses) const {
+    Lanes mean = Lanes::Zero();
+    for (const auto* s : stresses) mean += small::trace(*s) / 12;
+    for (int q = 0; q < 4; ++q) {
+      auto& s = *stresses[q];
+      const Lanes own = small::trace(s) / 3, shared = small::where_positive(least_, mean, own);
+      for (int c = 0; c < 3; ++c) s.c[c] = ratio_[q] * (s.c[c] - own) + shared, s.c[3 + c] *= ratio_[q];
+    }
+  }
+
+ private:
+  Lanes least_;
+  std::array<Lanes, 4> ratio_;  // J̄/J
+};
 
 // A tensor at each integration point of a cell.
 using CellTensors = std::array<Tensor, 4>;

@@ -1,6 +1,7 @@
 #include "mechanics/formulation/tangent.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "materials/tangent.hpp"
 #include "topology/parallel_for.hpp"
@@ -90,6 +91,17 @@ materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, con
   return materials::tangent_of(law, step, old.stress, state, start) / (1 + expansion.now);
 }
 
+// Integration point q of a cell, with the volume that its law saw.
+template <class L, class Cells>
+MaterialPoint as_the_law_saw(const MaterialBlock& block, int k, int q, const Cells& cell) {
+  MaterialPoint point = cell(block.index(k, q));
+  if (!materials::follows_stretch<L> || !block.shares_volume) return point;
+  double mean = 0;
+  for (int r = 0; r < 4; ++r) mean += 0.25 * cell(block.index(k, r)).deformation_gradient.determinant();
+  point.deformation_gradient *= std::cbrt(mean / point.deformation_gradient.determinant());
+  return point;
+}
+
 }  // namespace
 
 Tensor PointTangent::times(const Tensor& dF) const {
@@ -126,7 +138,9 @@ std::vector<PointTangent> point_tangents(const Body& body, const Committed& star
           const std::size_t index = block.index(k, q);
           if (has_failed(index)) continue;  // the other points of the cell hold
           PointTangent& tangent = tangents[body.owned() + block.first_integration_point + index];
-          tangent = at_index(i, index, start.cell(b, index), block.cells[index]);
+          const auto old_cell = [&](std::size_t at) { return start.cell(b, at); };
+          const auto cell = [&](std::size_t at) -> MaterialPoint { return block.cells[at]; };
+          tangent = at_index(i, index, as_the_law_saw<L>(block, k, q, old_cell), as_the_law_saw<L>(block, k, q, cell));
           tangents[i].by_gradient += tangent.by_gradient / block.points_per_cell();
         }
       });

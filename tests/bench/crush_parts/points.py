@@ -6,7 +6,7 @@ import numpy as np
 from exodus import gather_voxels, write_mesh
 from strut_tools import history_of, with_core_seconds
 from voxel.cells import stream_of
-from work_precision_parts.runs import method_keys, parameter, section, share_of_steps
+from work_precision_parts.runs import deck_of, method_keys, share_of_steps
 
 from . import voxels
 from .bodies import DENSITY, POISSON, YIELD, YOUNG
@@ -40,40 +40,33 @@ def mesh(path, body, method, spacing, placement):
 def conditions(body, placement):
     """Both ends and the core move as they must; at the start all in between does."""
     plate = body.plate_velocity(placement.turn)
-    held = []
-    for end, sign in (("upper", 1), ("lower", -1)):
-        held += [prescribed(f"{end} {axis}", end, axis, sign * speed) for axis, speed in zip("xyz", plate)]
-    held += [prescribed("core", "core", "xyz", 0)] if body.core else []
-    return held + [section(f"start {axis}", parameter("Type", "Initial Velocity"), parameter("Node Set", "everything"),
-                           parameter("Coordinate", axis), parameter("Value", f"{2 * speed / body.height:.17g}*z"))
-                   for axis, speed in zip("xyz", plate)]
+    found = {f"{end} {axis}": velocity("Prescribed", end, axis, f"{sign * speed:.17g}")
+             for end, sign in (("upper", 1), ("lower", -1)) for axis, speed in zip("xyz", plate)}
+    found |= {"core": velocity("Prescribed", "core", "xyz", "0")} if body.core else {}
+    return found | {f"start {axis}": velocity("Initial", "everything", axis, f"{2 * speed / body.height:.17g}*z")
+                    for axis, speed in zip("xyz", plate)}
 
 
-def prescribed(name, nodes, axes, value):
-    return section(name, parameter("Type", "Prescribed Velocity"), parameter("Node Set", nodes),
-                   parameter("Coordinate", axes), parameter("Value", f"{value:.17g}"))
+def velocity(kind, nodes, axes, value):
+    return {"Type": f"{kind} Velocity", "Node Set": nodes, "Coordinate": axes, "Value": value}
 
 
 def deck(name, body, method, spacing, placement):
     end = body.height / 2 - 0.45 * spacing
-    sets = {"upper": f"z &gt; {end:.12g}", "lower": f"z &lt; {-end:.12g}", "everything": "1 &gt; 0"}
+    sets = {"upper": f"z > {end:.12g}", "lower": f"z < {-end:.12g}", "everything": "1 > 0"}
     if body.core:
-        sets["core"] = f"x*x+y*y+z*z &lt; {body.core ** 2:.12g}"
-    metal = "".join(parameter(key, value, "double") for key, value in (
-        ("Density", DENSITY), ("Young's Modulus", YOUNG), ("Poisson's Ratio", POISSON), ("Yield Stress", YIELD)))
+        sets["core"] = f"x*x+y*y+z*z < {body.core ** 2:.12g}"
+    metal = {"Material Model": "Elastic Plastic Correspondence", "Density": DENSITY, "Young's Modulus": YOUNG,
+             "Poisson's Ratio": POISSON, "Yield Stress": YIELD}
     reactions = [f"Reaction_{axis}({end} {axis.lower()})" for end in ("upper", "lower") for axis in "XYZ"]
-    return section(
-        "deck",
-        section("Discretization", parameter("Type", "Exodus"), parameter("Input Mesh File", f"{name}.g"),
-                parameter("Points", method.points), parameter("Degenerate Points", "Drop")),
-        section("Node Sets", *(parameter(key, value) for key, value in sets.items())),
-        section("Materials", section("metal", parameter("Material Model", "Elastic Plastic Correspondence"), method_keys(method), metal)),
-        section("Blocks", section("all", parameter("Block Names", "all"), parameter("Material", "metal"),
-                                  parameter("Horizon Factor", method.horizon, "double"))),
-        section("Boundary Conditions", *conditions(body, placement)),
-        section("Solver", parameter("Final Time", body.duration(), "double"), section("Verlet")),
-        section("History", parameter("Filename", f"{name}.csv"), parameter("Interval", body.duration() / 200, "double"),
-                section("Variables", *(parameter(one, "true", "bool") for one in reactions))))
+    return deck_of({
+        "Discretization": {"Type": "Exodus", "Input Mesh File": f"{name}.g", "Points": method.points, "Degenerate Points": "Drop"},
+        "Node Sets": sets,
+        "Materials": {"metal": {**metal, **method_keys(method)}},
+        "Blocks": {"all": {"Block Names": "all", "Material": "metal", "Horizon Factor": method.horizon}},
+        "Boundary Conditions": conditions(body, placement),
+        "Solver": {"Final Time": body.duration(), "Verlet": {}},
+        "History": {"Filename": f"{name}.csv", "Interval": body.duration() / 200, "Variables": dict.fromkeys(reactions, "true")}})
 
 
 def work(rows, body, turn):

@@ -4,7 +4,7 @@ import pathlib
 import re
 import subprocess
 
-from work_precision_parts.runs import Runner, build, parameter, section
+from work_precision_parts.runs import COPPER, Runner, build, cube, deck_of
 
 EDGES = (27, 46, 67)  # points
 RANKS = (1, 2, 4, 8)
@@ -12,7 +12,6 @@ STEPS, FRAMES = 20, 2
 START = ("Mesh in", "Partition", "Families", "Critical time step")
 REPEATS = 3  # where times count: the least of them
 FIXED_DT = 8e-8  # s, stable; so that all make the same steps
-SPACING = 1e-3   # m
 
 # Each rank is a child of this, which tells the most memory that it had.
 WRAPPER = """import os, subprocess, sys
@@ -40,26 +39,16 @@ int MPI_Finalize(void) {
 
 
 def deck(edge, steps, frames):
-    copper = section("copper", parameter("Material Model", "Elastic Plastic Correspondence"),
-                     parameter("Density", 8960, "double"), parameter("Young's Modulus", 110e9, "double"),
-                     parameter("Poisson's Ratio", 0.3, "double"), parameter("Yield Stress", 5e7, "double"))
-    body = section("all", parameter("Block Names", "all"), parameter("Material", "copper"),
-                   parameter("Horizon Factor", 1.75, "double"))
-    swing = section("swing", parameter("Type", "Initial Velocity"), parameter("Node Set", "all"),
-                    parameter("Coordinate", "z"), parameter("Value", f"20*sin({6.28 / (edge * SPACING)}*x)"))
+    swing = f"20*sin({6.28 / (edge * 1e-3)}*x)"
     variables = ("Displacement", "Velocity", "Von_Mises_Stress", "Equivalent_Plastic_Strain")
-    output = section("Output", parameter("Output Filename", "run.e"), parameter("Output Frequency", steps // (frames - 1), "int"),
-                     section("Output Variables", *(parameter(name, "true", "bool") for name in variables)))
-    return section("deck", section("Discretization", parameter("Type", "Exodus"), parameter("Input Mesh File", f"cube{edge}.g")),
-                   section("Materials", copper), section("Blocks", body), section("Boundary Conditions", swing),
-                   section("Solver", parameter("Final Time", steps * FIXED_DT, "double"),
-                           section("Verlet", parameter("Fixed dt", FIXED_DT, "double"))),
-                   output, section("Restart", parameter("Frequency", 10**6, "int")))
-
-
-def recipe(edge):
-    length = edge * SPACING
-    return f"[body]\nname = all\nshape = box\nsize = {length} {length} {length}\nspacing = {SPACING}\n"
+    return deck_of({
+        "Discretization": {"Type": "Exodus", "Input Mesh File": f"cube{edge}.g"}, "Materials": {"copper": COPPER},
+        "Blocks": {"all": {"Block Names": "all", "Material": "copper", "Horizon Factor": 1.75}},
+        "Boundary Conditions": {"swing": {"Type": "Initial Velocity", "Node Set": "all", "Coordinate": "z", "Value": swing}},
+        "Solver": {"Final Time": steps * FIXED_DT, "Verlet": {"Fixed dt": FIXED_DT}},
+        "Output": {"Output Filename": "run.e", "Output Frequency": steps // (frames - 1),
+                   "Output Variables": dict.fromkeys(variables, "true")},
+        "Restart": {"Frequency": 10**6}})
 
 
 class Bench:
@@ -105,7 +94,7 @@ def runs(root):
     build(root)
     bench = Bench(root)
     for edge in EDGES:
-        Runner(root, bench.work).mesh(f"cube{edge}", recipe(edge))
+        Runner(root, bench.work).mesh(f"cube{edge}", cube(edge))
     rows = []
     for edge in EDGES:
         for ranks in RANKS:

@@ -3,8 +3,10 @@ import dataclasses
 import pathlib
 import re
 import subprocess
+import xml.etree.ElementTree as tree
 
 import numpy as np
+from decks import section
 from strut_tools import history_of, seconds_of_phase, with_core_seconds
 from picture_parts import result as picture_result
 
@@ -17,25 +19,30 @@ def build(root):
                    stdout=subprocess.DEVNULL)
 
 
-def parameter(name, value, kind="string"):
-    return f'<Parameter name="{name}" type="{kind}" value="{value}"/>\n'
+def deck_of(sections):
+    """The text of a deck: {key: value, or the content of a section}."""
+    return tree.tostring(section("deck", sections), "unicode")
 
 
-def section(name, *content):
-    return f'<ParameterList name="{name}">\n{"".join(content)}</ParameterList>\n'
+def cube(cells):
+    """The recipe of a cube of cells of 1 mm."""
+    edge = cells * 1e-3
+    return f"[body]\nname = all\nshape = box\nsize = {edge} {edge} {edge}\nspacing = 1e-3\n"
 
 
-VERLET = section("Verlet", parameter("Safety Factor", 0.8, "double"))
-ONE_EQUILIBRIUM = section("QuasiStatic", parameter("Number of Load Steps", 1, "int"))
+COPPER = {"Material Model": "Elastic Plastic Correspondence", "Density": 8960, "Young's Modulus": 110e9, "Poisson's Ratio": 0.3,
+          "Yield Stress": 5e7}
+VERLET = {"Verlet": {"Safety Factor": 0.8}}
+ONE_EQUILIBRIUM = {"QuasiStatic": {"Number of Load Steps": 1}}
 
 
 def method_keys(method):
     if method.stabilization == "ordinary":
-        return parameter("Material Model", "Elastic")
+        return {"Material Model": "Elastic"}
     if method.stabilization == "quadratic":
-        return parameter("Formulation", "Quadratic Correspondence")
+        return {"Formulation": "Quadratic Correspondence"}
     kind, coefficient = method.kind()
-    return parameter("Stabilization", kind) + (parameter("Stabilization Coefficient", coefficient) if coefficient else "")
+    return {"Stabilization": kind, **({"Stabilization Coefficient": coefficient} if coefficient else {})}
 
 
 @dataclasses.dataclass
@@ -77,23 +84,16 @@ class Runner:
         """None where the run fails."""
         model = method_keys(method)
         if method.stabilization != "ordinary":
-            model = parameter("Material Model", material.correspondence) + model
-        deck = section(
-            "deck",
-            section("Discretization", parameter("Type", "Exodus"), parameter("Input Mesh File", mesh),
-                    parameter("Points", method.points), parameter("Influence Function", method.influence),
-                    parameter("Degenerate Points", "Drop Any")),
-            section("Materials", section("solid", model, material.keys)),
-            section("Blocks", section("all", parameter("Block Names", "all"), parameter("Material", "solid"),
-                                      parameter("Horizon Factor", method.horizon, "double"))),
-            section("Boundary Conditions", *conditions),
-            section("Solver", parameter("Final Time", final_time, "double"), solver),
-            section("Output", parameter("Output Filename", f"{name}.e"),
-                    parameter("Output Interval", final_time, "double"),
-                    section("Output Variables", parameter("Velocity", "true", "bool"))),
-            section("History", parameter("Filename", f"{name}.csv"), parameter("Interval", interval, "double"),
-                    section("Variables", *(parameter(v, "true", "bool") for v in variables))))
-        (self.work / f"{name}.xml").write_text(deck)
+            model = {"Material Model": material.correspondence, **model}
+        (self.work / f"{name}.xml").write_text(deck_of({
+            "Discretization": {"Type": "Exodus", "Input Mesh File": mesh, "Points": method.points,
+                               "Influence Function": method.influence, "Degenerate Points": "Drop Any"},
+            "Materials": {"solid": {**model, **material.keys}},
+            "Blocks": {"all": {"Block Names": "all", "Material": "solid", "Horizon Factor": method.horizon}},
+            "Boundary Conditions": conditions,
+            "Solver": {"Final Time": final_time, **solver},
+            "Output": {"Output Filename": f"{name}.e", "Output Interval": final_time, "Output Variables": {"Velocity": "true"}},
+            "History": {"Filename": f"{name}.csv", "Interval": interval, "Variables": dict.fromkeys(variables, "true")}}))
         command = [self.program, f"{name}.xml"]
         done, taken = with_core_seconds(lambda: subprocess.run(command, cwd=self.work, capture_output=True, text=True))
         if done.returncode != 0:

@@ -69,7 +69,8 @@ TEST(Condition, PrescribedDisplacementBeginsAtItsSlope) {
 }
 
 // A table that ends at the final time describes the motion up to it. The velocities around that time, which the kinetic
-// energy and the reaction of the last row need, are those of the same motion that goes on. The third table ends before.
+// energy and the reaction of the last row need, are those of the same motion that goes on, also where a drift of 0.1 %
+// is added. The third table ends before.
 TEST(Condition, TableThatEndsAtTheFinalTimeDoesNotStopTheMotion) {
   const auto end_of = [](const std::string& value, bool is_tool) {
     const RunFolder folder;
@@ -83,10 +84,12 @@ TEST(Condition, TableThatEndsAtTheFinalTimeDoesNotStopTheMotion) {
   };
   for (const bool is_tool : {false, true}) {
     const Ledger goes_on = end_of("-20*t", is_tool), ends = end_of("table(t, 0, 0, 5e-6, -1e-4)", is_tool),
+                 drifts = end_of("table(t, 0, 0, 5e-6, -1e-4) - 0.02*t", is_tool),
                  stopped = end_of("table(t, 0, 0, 4e-6, -8e-5)", is_tool);
     // The table's value is that of the product but for round-off.
     EXPECT_NEAR(ends.kinetic / goes_on.kinetic, 1, 1e-9) << is_tool;
     EXPECT_NEAR(ends.momentum[2] / goes_on.momentum[2], 1, 1e-9) << is_tool;
+    EXPECT_NEAR(drifts.momentum[2] / goes_on.momentum[2], 1.001, 1e-4) << is_tool;
     EXPECT_GT(std::abs(stopped.momentum[2] / goes_on.momentum[2] - 1), 1e-2) << is_tool;
   }
 }
@@ -110,6 +113,7 @@ TEST(Condition, VelocityThatEndsAtTheFinalTimeDoesNotStopTheMotion) {
   expect_to_go_on("value = 0; if (t &lt; 5e-6) { value = -20; }", "-20");
   expect_to_go_on("value = 0; if (t &lt;= 5e-6) { value = -20; }", "-20");
   expect_to_go_on("table(t, 0, 0, 5e-6, -20)", "-4e6*t");
+  expect_to_go_on("(t &lt; 5e-6)*-20 - 1e-3*t", "-20 - 1e-3*t");
   EXPECT_LT(end_of("value = 0; if (t &lt; 4e-6) { value = -20; }").kinetic, 0.9 * end_of("-20").kinetic);
 }
 

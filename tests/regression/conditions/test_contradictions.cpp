@@ -338,8 +338,10 @@ TEST(Values, ThatDoTooMuchInALoadStepAreTold) {
   const std::string told = "WARNING: Boundary Conditions > a > Value: has pulses or turns that are too many";
   for (const std::string& value : {waves, pulses}) expect_said(warnings(value, "1"), {told}, value);
   for (const std::string& value : {waves, pulses}) EXPECT_EQ(warnings(value, "50").find(told), std::string::npos);
-  for (const std::string& value : {table + ")", std::string("1e-6/sqrt(abs(t - 2.00123e-6))"), to_and_fro})
-    EXPECT_EQ(warnings(value, "1").find(told), std::string::npos);
+  for (const std::string& value :
+       {table + ")", std::string("1e-6/sqrt(abs(t - 2.00123e-6))"), to_and_fro,
+        std::string("1e-3*exp(-(((t - 1.5e-6)/5e-9)^2))"), std::string("1e-3*abs(sin(9.676e7*t))")})
+    EXPECT_EQ(warnings(value, "1").find(told), std::string::npos) << value;
 }
 
 // A ramp that ends within a load step: its rate is not that of the step.

@@ -4,6 +4,7 @@
 
 #include <iomanip>
 #include <sstream>
+#include <tuple>
 
 #include "regression/stretched.hpp"
 #include "run/monitor.hpp"
@@ -396,20 +397,27 @@ TEST(Monitor, PointsThatASetOfAToolLeavesOutAreToldOfWhereTheyGoThroughIt) {
   }
 }
 
-// It flies through the plane in which the other body ends; away from it nothing is told.
-TEST(Monitor, BodyThatGoesThroughASymmetryPlaneIsToldOfWithoutContact) {
+// A body flies through the plane in which another one ends, or a foot of this one is driven through it; away from it
+// nothing is told.
+TEST(Monitor, PointsThatGoThroughASymmetryPlaneAreToldOfWithoutContact) {
   const RunFolder folder;
-  folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, 1e-3) + cubes(2, {9e-3, 0, 1e-3}, 3, 3, 3, 1e-3));
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, 1e-3) + cubes(1, {3e-3, 0, 1e-3}, 1, 3, 2, 1e-3) +
+                                 cubes(2, {9e-3, 0, 1e-3}, 3, 3, 3, 1e-3));
   Parts parts = thrown_block("");
-  parts.node_sets = key("foot", "(z &lt; 1.0e-3) * (x &lt; 5.0e-3)");
+  parts.node_sets = key("foot", "(z &lt; 1.0e-3) * (x &lt; 5.0e-3)") + key("toe", "(x &gt; 3e-3) * (x &lt; 4e-3)");
   const std::string words = "points have gone through a Symmetry Plane";
-  for (const std::string speed : {"-100", "100"}) {
-    parts.conditions = along("flight", "Initial Velocity", "block_2", "z", speed) +
-                       plane("s", "Symmetry Plane", "foot", "0 0 0", "0 0 1");
+  for (const auto& [set, speed, end] : {std::tuple("block_2", "-100", "has no mirror image"),
+                                        {"block_2", "100", ""},
+                                        {"toe", "-100", "Contact does not see mirror images"}}) {
+    parts.conditions =
+        along("flight", set == std::string("toe") ? "Prescribed Velocity" : "Initial Velocity", set, "z", speed) +
+        plane("s", "Symmetry Plane", "foot", "0 0 0", "0 0 1");
     const Outcome o = outcome(folder, parts);
     EXPECT_EQ(o.error, "");
-    const bool is_told = folder.world.max(o.said.find(words) != std::string::npos ? 1.0 : 0.0) > 0;
-    EXPECT_EQ(is_told, speed == "-100") << o.said;
+    const std::size_t at = o.said.find(words);
+    const bool is_told =
+        folder.world.max(at != std::string::npos && o.said.find(end, at) != std::string::npos ? 1.0 : 0.0) > 0;
+    EXPECT_EQ(is_told, end != std::string()) << set << speed << o.said;
   }
 }
 

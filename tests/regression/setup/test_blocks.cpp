@@ -189,6 +189,12 @@ TEST(Blocks, WhoseOuterCellsDoNotStrainAreToldOf) {
   EXPECT_NE(
       told(held + tool, "").find("expect 50 % too much stiffness along z, and 33 % too much force and strain in flow"),
       std::string::npos);
+  for (const std::string corner : {"-1 -1 4e-3", "1e-3 -1 4e-3"}) {  // a box as wide as the bar, or not
+    const std::string box = section("box", key("Type", "Rigid Box") + key("Lower Corner", corner) +
+                                               key("Upper Corner", "1 1 1") + key("Travel Z", "-t"));
+    const std::string ends = corner[0] == '-' ? "pressed at both ends" : "pressed at one end";
+    EXPECT_NE(told(held + box, "").find(ends), std::string::npos) << corner;
+  }
   EXPECT_EQ(told(held + tool, "Nodes").find("too much stiffness"), std::string::npos);
   EXPECT_NE(told(held + tool, "Nodes").find("expect about 11 % too little stiffness along z"), std::string::npos);
   EXPECT_NE(told(held + tool, "Nodes", key("Horizon", "2.6e-3")).find("about 49 % too little"), std::string::npos);

@@ -416,6 +416,10 @@ class Runs(InFolder):
             self.assertIn("WARNING: block.xml has been changed since the run, in Boundary Conditions: ", told(later, DECK.replace("-1e-2", "-2e-2")))
         self.assertEqual(told(-1, DECK.replace('name="History">', 'name="History"><Parameter name="Interval" type="double" value="1"/>')), "")
         self.assertIn("older than", told(1, checkpoint=-10))  # the checkpoint is of a run before
+        netCDF4.Dataset(self.folder / "other.restart", "w").deck = DECK.replace("-1e-2", "-3e-2")  # ran later, with the same history
+        self.assertIn("WARNING: of the run that left ./other.restart, whose deck differs in Boundary Conditions: ", told(-1))
+        netCDF4.Dataset(self.folder / "other.restart", "w").deck = DECK.replace("-1e-2", "-3e-2").replace("block.csv", "other.csv")
+        self.assertEqual(told(-1), "")
 
     def test_a_table_of_ones_own_needs_no_comment(self):
         for comments in ("", "# mine\n", "# mine\n# of today\n"):

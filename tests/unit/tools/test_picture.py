@@ -71,6 +71,12 @@ def hue(color):
     return color / np.linalg.norm(color)
 
 
+def pixel(camera, place):
+    """The pixel (column, row) at which a place is seen."""
+    right, up, _ = (camera.seen(np.asarray(place)) - camera.middle) / camera.pixel
+    return 0.5 * camera.width + right, 0.5 * camera.height - up
+
+
 class Pictures(InFolder):
     def picture(self, *words):
         return self.run_tool("picture", *words)
@@ -158,14 +164,14 @@ class Pictures(InFolder):
             value = list(values.values())[row][column]
             for x, z in ((2, 1), (2, 6), (13, 1), (13, 6)):
                 point = np.flatnonzero(np.all(np.abs(places - (np.array([x, 0, z]) + 0.5) * H) < 0.1 * H, axis=1))[0]
-                right, down = scene.camera.position(places[point] + column * after[point])
+                right, down = pixel(scene.camera, places[point] + column * after[point])
                 found = image[int(down), int(right)]
                 # The scale has 256 colors: 0.01. Other quarters' colors are 0.2 and more away.
                 expected = hue(view.SCALE(value[point] / np.max(list(values.values())[row])))
                 np.testing.assert_allclose(hue(found), expected, atol=0.01, err_msg=f"{row} {column} {x} {z}")
                 self.assertGreater(found[:3].max(), 0.3)  # lit
         # Where the right half was before, at its lower edge, there is nothing left.
-        right, down = scene.camera.position(places[0] + [13 * H, 0, 0])
+        right, down = pixel(scene.camera, places[0] + [13 * H, 0, 0])
         self.assertEqual(images[0, 1][int(down), int(right), 3], 0)
 
     def test_the_picture_shows_the_body(self):
@@ -240,7 +246,7 @@ class Pictures(InFolder):
             scene = self.scene("foam.e", **front)
         self.assertIn("block 'plate' is grey glass for all variables, as Equivalent_Plastic_Strain stays 0 in it", said.getvalue())
         self.assertEqual([row.high for row in scene.rows], [0.5, 1e8])
-        right, down = (int(p) for p in scene.camera.position([3 * H, 0, 7 * H]))
+        right, down = (int(p) for p in pixel(scene.camera, [3 * H, 0, 7 * H]))
         found = scene.images([0])[1, 0][down, right]
         self.assertLess(found[3], 0.5)  # nothing behind, so that it is seen through
         np.testing.assert_allclose(hue(found), hue(view.GREY), atol=1e-6)
@@ -254,7 +260,7 @@ class Pictures(InFolder):
         write_result(self.folder / "core.e", {"body": places}, np.zeros((2, len(places), 3)), {"Core": np.stack([inner] * 2)})
         for clip, expected in ((None, 0.0), ((1, 0.5), 1.0)):
             scene = self.scene("core.e", view=(0, -1, 0), frames=1, clip=clip, variables=["Core"])
-            right, down = (int(p) for p in scene.camera.position([3 * H, 0, 3 * H]))
+            right, down = (int(p) for p in pixel(scene.camera, [3 * H, 0, 3 * H]))
             np.testing.assert_allclose(hue(scene.images([0])[0, 0][down, right]), hue(view.SCALE(expected)), atol=1e-6)
 
     def test_hidden_points_show_what_is_behind_them(self):
@@ -263,7 +269,7 @@ class Pictures(InFolder):
         write_result(self.folder / "crack.e", {"body": places}, np.zeros((2, len(places), 3)),
                      {"Damage": np.stack([0 * front, front]), "Behind": np.stack([1 - front] * 2)})
         scene = self.scene("crack.e", view=(0, -1, 0), frames=2, variables=["Behind"], hide=("Damage", 0.5))
-        right, down = (int(p) for p in scene.camera.position([3 * H, 0, 3 * H]))
+        right, down = (int(p) for p in pixel(scene.camera, [3 * H, 0, 3 * H]))
         for column, expected in ((0, 0.0), (1, 1.0)):
             np.testing.assert_allclose(hue(scene.images([column])[0, column][down, right]), hue(view.SCALE(expected)),
                                        atol=1e-6)
@@ -313,7 +319,7 @@ class RigidTools(InFolder):
         images = scene.images([0, 1])
 
         def seen(column, x, z):
-            right, down = (int(p) for p in scene.camera.position([x * H, 0, z * H]))
+            right, down = (int(p) for p in pixel(scene.camera, [x * H, 0, z * H]))
             return images[0, column][down, right]
         # The picture shows the part of the punch below 6.9 H: from 6.5 H on before, from 6 H on after.
         for column, z, there in ((0, 6.25, False), (1, 6.25, True), (0, 6.7, True), (1, 6.7, True)):
@@ -487,7 +493,7 @@ class Surfaces(unittest.TestCase):
         seen = painter.Solid(painter.Painter(), surface.polydata(both.corners, both.quads), both.point, camera)
         point = np.full(seen.seen.shape, -1)
         point[seen.seen] = seen.point
-        column, row = (int(painter.FINER * p) for p in camera.position([10 * H, 0, 10 * H]))
+        column, row = (int(painter.FINER * p) for p in pixel(camera, [10 * H, 0, 10 * H]))
         self.assertTrue(np.all(point[row - 60:row + 60, column - 60:column + 60] == 0))
         # The depth of the wall itself: y = 0 is nearer than y = 5 H.
         self.assertAlmostEqual(seen.near[row, column], camera.seen(np.array([10 * H, 0, 10 * H]))[2] - camera.middle[2], delta=H)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "integrators/explicit/central_difference.hpp"
+#include "mechanics/energies.hpp"
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/formulation/shared_volume.hpp"
 #include "verification/larger.hpp"
@@ -211,6 +212,30 @@ TEST(SharedVolume, IsNotSharedWhereAPlaceIsNearlyFlat) {
   CellTensors shared = dF;
   SharedVolume(cell_of(0.01), 0).share_gradients(shared);
   EXPECT_EQ(product(shared, shared), product(dF, dF));
+}
+
+// Of a law that follows the stretch: the difference of the energy of two motions, to the third order of the difference.
+TEST(SharedVolume, ForcesOfElastomersAreTheDerivativeOfTheirEnergy) {
+  const Communicator world;
+  const materials::Hyperelastic rubber{.bulk = 1e9, .terms = {{{1e6, 2}}}};
+  const Tensor R = rotation(0.4);
+  const auto at = [&](double part) {
+    Body body = body_of(block(rubber), world);
+    deform(body, [&](const Vector& X) -> Vector {
+      return R * X + 40 * X[0] * X + part * Vector(X[1] * X[2], 3 * X[0] * X[0], X[0] * X[1]);
+    });
+    advance_by_any_step(body, 1, 0, true);
+    return body;
+  };
+  const auto energy_of = [](const Body& body) { return stored_energies(body).elastic; };
+  constexpr double difference = 1e-2;
+  const Body middle = at(0), more = at(difference), less = at(-difference);
+  double work = 0;
+  for (int i = 0; i < middle.owned(); ++i) {
+    work -= middle.domain.volume(i) * middle.force_density[i].dot(more.current(i) - less.current(i));
+  }
+  work = world.sum(work);
+  EXPECT_NEAR((energy_of(more) - energy_of(less)) / work, 1, 1e-7);
 }
 
 // ---- Flow ----------------------------------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ import atexit
 import sys
 
 from . import _core
-from ._core import Error
+from ._core import Error, set_threads, version
 from .deck import Deck
 from .mesh import mesh, recipe, voxels
 from .run import Run, check, close_all, run
@@ -24,16 +24,6 @@ from .tools import convergence, curve, picture, stiffness
 
 __all__ = ["Deck", "Error", "Run", "check", "convergence", "curve", "mesh", "picture", "recipe", "run", "set_threads",
            "stiffness", "version", "voxels"]
-
-
-def version():
-    """The version of strut, and how it was built."""
-    return _core.version()
-
-
-def set_threads(count):
-    """The number of threads of each rank, as strut --threads."""
-    _core.set_threads(count)
 
 
 Error.__module__ = "strut"

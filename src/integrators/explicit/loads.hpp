@@ -1,0 +1,66 @@
+// The loads of explicit steps, with the times and the parts of impulses for which they act on points with substeps.
+//
+// A load on a part of a body acts in its points' own steps: once a whole step, its impulse would strike stiff points by
+// so many times the stress that it causes as they have substeps. A load on whole bodies, such as weight, acts once a
+// whole step, so that a body that falls stays undeformed to the last bit.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "conditions/conditions.hpp"
+
+namespace strut {
+
+class Loads {
+ public:
+  explicit Loads(const Conditions& conditions);
+
+  using Levels = std::vector<std::uint8_t>;  // time-step levels of the motion of the owned points; empty: all 0
+
+  // Collective. The levels in the next whole step, and in the last one if they were others. `highest`: of all points.
+  void take_levels(const Body& body, const std::optional<Levels>& before, const Levels& after, int highest);
+
+  // A time of impulses, s: whole steps before and after it, or for a time of a higher level the present one twice.
+  struct Moment {
+    double time, before, after;
+    double end = std::numeric_limits<double>::infinity();  // no load acts later
+    int level = 0;
+  };
+  // Adds the force densities for the impulses of points that move at this moment. With substeps, loads that change with
+  // time act with their mean over the points' own steps, from one sample a substep.
+  void add(const Moment& moment, Body& body);
+  // Adds the work of the loads last added, once velocities are final; `impulse_time`: that of force densities, s.
+  void add_work(double impulse_time, const Body& body, ImpulseWork& work) const;
+  // The impulse at a whole step is over: the next one has the same levels on both sides.
+  void end_whole_step();
+
+  // Collective. Saves or restores the levels in the last step, if they were others.
+  void serialize(Archive& archive, const Body& body);
+  const std::optional<Levels>& levels_before() const { return before_; }
+
+ private:
+  struct Group {
+    int before, after;  // levels of its points
+    Conditions loads;
+  };
+  struct Impulse {
+    const Conditions* loads;
+    std::vector<double> times;  // s
+    double part;                // of the impulse of force densities, at each of the times
+  };
+  Impulse impulse(const Group& group, const Moment& moment) const;
+
+  Conditions all_;
+  Group even_;                 // once a whole step
+  std::vector<Group> groups_;  // in their points' own steps
+  std::vector<Impulse> now_;
+  std::optional<Levels> before_;
+  int highest_ = 0;
+  bool any_, change_;
+};
+
+}  // namespace strut
