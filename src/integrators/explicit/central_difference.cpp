@@ -336,8 +336,7 @@ std::int64_t CentralDifference::new_breaks() {
 // Collective. Throws Error unless the run may continue with this report; else sets the warning.
 void CentralDifference::explain(const StepReport& report, const std::string& no_number) {
   const Communicator& ranks = body_.domain.communicator;
-  const int teller = ranks.first_rank(!no_number.empty());
-  if (teller >= 0) raise_together(ranks, teller == ranks.rank() ? no_number : "");
+  raise_first(ranks, no_number);
   if (report.failure)
     warning_ = text_of("at t = ", time_, " s, step ", steps(), " of ", dt(), " s: ", describe(*report.failure, body_));
   if (!went_on_) raise_together(ranks, warning_);
