@@ -159,7 +159,7 @@ void add_edges(const Cell& cell, int number, std::vector<Edge>& edges) {
   }
 }
 
-// Seeds with the spheres whose radical planes are the faces of cells; without `radii`, their bisecting planes.
+// Seeds with the spheres whose radical planes are the faces of cells; of radii of 0 these are the bisecting planes.
 struct Spheres {
   std::vector<Vector> places;
   std::vector<double> radii;
@@ -169,31 +169,13 @@ struct Spheres {
   // Calls visit(number, cell of voro++ around its place, place).
   template <class Visit>
   void for_each_cell(const Visit& visit) const {
-    if (radii.empty()) {
-      voro::container container = empty<voro::container>();
-      for (std::size_t n = 0; n < places.size(); ++n) {
-        container.put(static_cast<int>(n), places[n][0], places[n][1], places[n][2]);
-      }
-      over(container, visit);
-    } else {
-      voro::container_poly container = empty<voro::container_poly>();
-      for (std::size_t n = 0; n < places.size(); ++n) {
-        container.put(static_cast<int>(n), places[n][0], places[n][1], places[n][2], radii[n]);
-      }
-      over(container, visit);
-    }
-  }
-
- private:
-  template <class Container>
-  Container empty() const {
     const Triple bins =
         ((upper - lower).array() * 0.375).ceil().cast<int>();  // about 5 seeds each, as voro++ recommends
-    return Container(lower[0], upper[0], lower[1], upper[1], lower[2], upper[2], bins[0], bins[1], bins[2], periodic,
-                     periodic, periodic, 8);
-  }
-  template <class Container, class Visit>
-  static void over(Container& container, const Visit& visit) {
+    voro::container_poly container(lower[0], upper[0], lower[1], upper[1], lower[2], upper[2], bins[0], bins[1],
+                                   bins[2], periodic, periodic, periodic, 8);
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      container.put(static_cast<int>(n), places[n][0], places[n][1], places[n][2], radii[n]);
+    }
     voro::c_loop_all loop(container);
     voro::voronoicell_neighbor cell;
     if (loop.start()) do {
@@ -273,8 +255,9 @@ Skeleton foam_skeleton(const Vector& size, const FoamSeeds& wanted) {
   const Vector half = size.cwiseQuotient(2 * unit);
   std::mt19937_64 random(wanted.seed);
   const Seeds seeds(half, repeats, wanted.irregularity, random);
-  Spheres spheres{seeds.positions(), {}, seeds.lower(), seeds.upper(), wanted.periodic};
-  if (wanted.sizes > 0) spheres.radii = radii_of(spheres.places.size(), nearest / 2, wanted.sizes, random);
+  std::vector<double> radii(seeds.positions().size(), 0);
+  if (wanted.sizes > 0) radii = radii_of(radii.size(), nearest / 2, wanted.sizes, random);
+  Spheres spheres{seeds.positions(), radii, seeds.lower(), seeds.upper(), wanted.periodic};
   for (int n = 0; n < wanted.relax; ++n) relax(spheres);
   const Vector origin = wanted.periodic ? Vector(Vector::Zero()) : Vector(-half);  // of the box
   Skeleton skeleton;
