@@ -289,11 +289,11 @@ const Observable* find(const std::vector<Observable>& all, const std::string& na
 
 }  // namespace
 
-const Observable& chosen(const std::vector<Observable>& all, const std::string& name) {
+const Observable& chosen(const std::vector<Observable>& all, const std::string& name, const std::string& where) {
   if (const Observable* found = find(all, name)) return *found;
   const std::vector<std::string> valid = names_of(all);
   const bool of_others = find(observables_of_all_laws(), name) != nullptr;
-  throw Error("Output > Output Variables > " + name + ": " +
+  throw Error(where + " > " + name + ": " +
               (of_others ? "no material of this deck has a law with this state variable"
                          : "no such variable" + did_you_mean(name, valid)) +
               "; valid are " + joined(valid));
