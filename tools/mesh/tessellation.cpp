@@ -197,21 +197,23 @@ void relax(Spheres& spheres) {
   spheres.places = std::move(moved);
 }
 
-std::vector<Edge> edges_of(const Spheres& spheres, const Vector& lower, const Vector& upper, double& scatter) {
-  std::vector<Edge> edges;
+// Edges, and the cells of the box between two corners.
+Skeleton skeleton_of(const Spheres& spheres, const Vector& lower, const Vector& upper) {
+  Skeleton skeleton;
   Cell cell;
-  double cells = 0, sum = 0, squares = 0;
+  double sum = 0, squares = 0;
   spheres.for_each_cell([&](int number, voro::voronoicell_neighbor& raw, const Vector& place) {
     raw.vertices(place[0], place[1], place[2], cell.vertices);
     raw.face_vertices(cell.faces);
     raw.neighbors(cell.neighbors);
-    add_edges(cell, number, edges);
+    add_edges(cell, number, skeleton.edges);
     if ((place - lower).minCoeff() < 0 || (upper - place).minCoeff() < 0) return;
     const double volume = raw.volume();
-    ++cells, sum += volume, squares += volume * volume;
+    ++skeleton.cells, sum += volume, squares += volume * volume;
   });
-  scatter = cells > 0 ? std::sqrt(std::max(0.0, cells * squares / (sum * sum) - 1)) : 0;
-  return edges;
+  const auto cells = static_cast<double>(skeleton.cells);
+  skeleton.scatter = cells > 0 ? std::sqrt(std::max(0.0, cells * squares / (sum * sum) - 1)) : 0;
+  return skeleton;
 }
 
 // The edges of a periodic box, and those around it.
@@ -260,13 +262,8 @@ Skeleton foam_skeleton(const Vector& size, const FoamSeeds& wanted) {
   Spheres spheres{seeds.positions(), radii, seeds.lower(), seeds.upper(), wanted.periodic};
   for (int n = 0; n < wanted.relax; ++n) relax(spheres);
   const Vector origin = wanted.periodic ? Vector(Vector::Zero()) : Vector(-half);  // of the box
-  Skeleton skeleton;
+  Skeleton skeleton = skeleton_of(spheres, origin, origin + 2 * half);
   skeleton.stretch = unit / std::cbrt(unit.prod());
-  for (const Vector& x : spheres.places) {
-    const bool inside = ((x - origin).array() >= 0).all() && ((x - origin - 2 * half).array() <= 0).all();
-    skeleton.cells += inside || wanted.periodic ? 1 : 0;
-  }
-  skeleton.edges = edges_of(spheres, origin, origin + 2 * half, skeleton.scatter);
   const Vector middle = wanted.periodic ? Vector(Vector::Zero()) : Vector(size / 2);  // where the seeds' origin goes
   for (Edge& edge : skeleton.edges) {
     edge.a = unit.cwiseProduct(edge.a) + middle;
