@@ -204,17 +204,13 @@ Friction friction_forces(const Kinematics& kinematics, const L& law, double coef
   return friction;
 }
 
-// Calls visit(k, partner, n, stiffness) for the touching pairs of the points pairs.owned[k].
-template <class Visit>
-void for_each_spring(const PairLaw& law, const Pairs& pairs, const Visit& visit) {
-  std::visit(
-      [&](const auto& one) {
-        for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-          for_each_touch(pairs, one, k,
-                         [&](const auto& touch) { visit(k, touch.partner, touch.direction, touch.stiffness()); });
-        }
-      },
-      law);
+// Calls visit(k, Touch) for the touching pairs of the points pairs.owned[k].
+void over_touches(const PairLaw& law, const Pairs& pairs, const auto& visit) {
+  const auto by_law = [&](const auto& one) {
+    for (std::size_t k = 0; k < pairs.owned.size(); ++k)
+      for_each_touch(pairs, one, k, [&](const auto& touch) { visit(k, touch); });
+  };
+  std::visit(by_law, law);
 }
 
 }  // namespace
@@ -246,33 +242,21 @@ void add_friction(const Kinematics& kinematics, const PairLaw& law, double coeff
 
 void for_each_normal_force(const PairLaw& law, const Pairs& pairs,
                            const std::function<void(std::size_t, Vector)>& visit) {
-  std::visit(
-      [&](const auto& one) {
-        for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-          for_each_touch(pairs, one, k, [&](const auto& touch) { visit(k, -touch.force() * touch.direction); });
-        }
-      },
-      law);
+  over_touches(law, pairs, [&](std::size_t k, const auto& touch) { visit(k, -touch.force() * touch.direction); });
 }
 
 // A pair over a side is seen from either end, once with an image above and once with one below.
 Vector normal_force_through_sides(const PairLaw& law, const Pairs& pairs) {
   Vector sum = Vector::Zero();
-  std::visit(
-      [&](const auto& one) {
-        for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-          for_each_touch(pairs, one, k, [&](const auto& touch) {
-            sum -= 0.5 * pairs.through_sides(touch.partner, touch.force() * touch.direction);
-          });
-        }
-      },
-      law);
+  over_touches(law, pairs, [&](std::size_t, const auto& touch) {
+    sum -= 0.5 * pairs.through_sides(touch.partner, touch.force() * touch.direction);
+  });
   return sum;
 }
 
 void add_springs(const PairLaw& law, const Pairs& pairs, std::span<Tensor> springs) {
-  for_each_spring(law, pairs, [&](std::size_t k, int, const Vector& n, double stiffness) {
-    springs[pairs.owned[k]] += stiffness * n * n.transpose();
+  over_touches(law, pairs, [&](std::size_t k, const auto& touch) {
+    springs[pairs.owned[k]] += touch.stiffness() * touch.direction * touch.direction.transpose();
   });
 }
 
@@ -280,9 +264,9 @@ void add_stiffness(const PairLaw& law, Pairs& pairs, std::span<const Vector> fie
   std::vector<Vector> values(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) values[k] = field[pairs.owned[k]];
   if (pairs.halo) pairs.halo->exchange<unchanged>(values);
-  for_each_spring(law, pairs, [&](std::size_t k, int partner, const Vector& n, double stiffness) {
-    const double approach = n.dot(values[k] - values[partner]);
-    result[pairs.owned[k]] += stiffness * approach * n;
+  over_touches(law, pairs, [&](std::size_t k, const auto& touch) {
+    const double approach = touch.direction.dot(values[k] - values[touch.partner]);
+    result[pairs.owned[k]] += touch.stiffness() * approach * touch.direction;
   });
 }
 

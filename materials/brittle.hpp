@@ -57,7 +57,6 @@ struct Brittle {
   double dissipation(const State& state) const { return state.dissipated; }
   double crack_work(const State& state) const { return state.dissipated; }
   void set_crack(double to_strength, double to_width) { strength = to_strength, width = to_width; }
-  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
   // A softening cell counts as flowed, so that its integration points open alike: the crack is narrower than the cell.
   bool has_flowed(const State& state) const { return state.damage > 0; }

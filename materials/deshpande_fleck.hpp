@@ -79,9 +79,6 @@ struct DeshpandeFleck {
   }
   double plastic_strain(const State& state) const { return state.equivalent_plastic_strain; }
   double dissipation(const State& state) const { return state.plastic_work; }
-  double equivalent_stress(const Symmetric& stress, const State&) const {
-    return equivalent({trace(stress) / 3, von_mises(stress)});
-  }
   // Infinite for a point that has become solid.
   double flow_stress(const State& state) const {
     const bool is_solid = state.equivalent_plastic_strain >= (1 - 1e-9) * solid * densification;

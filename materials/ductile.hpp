@@ -73,7 +73,6 @@ struct DuctileOf {
   double part_left(const State& state) const { return 1 - state.damage; }
   void set_crack_length(double to) { length = to; }
   double dissipation(const State& state) const { return metal.dissipation(state.metal); }
-  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double heat(const State& state) const requires tells_heat<Metal> { return metal.heat(state.metal); }
   void set_initial_temperature(double to) requires tells_heat<Metal> { metal.set_initial_temperature(to); }
   double flow_stress(const State& state) const {

@@ -51,7 +51,6 @@ struct Elastic {
   }
 
   double dissipation(const State&) const { return 0; }
-  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
 };
 

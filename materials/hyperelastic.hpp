@@ -74,7 +74,6 @@ struct Hyperelastic {
   }
   double stored_energy(const State& state) const { return state.stored; }
   double dissipation(const State& state) const { return state.dissipated; }
-  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
 };
 

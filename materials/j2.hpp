@@ -36,7 +36,6 @@ struct J2 {
   double plastic_strain(const State& state) const { return state.equivalent_plastic_strain; }
   bool has_flowed(const State& state) const { return state.equivalent_plastic_strain > 0; }
   double dissipation(const State& state) const { return state.plastic_work; }
-  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State& state) const {
     return flow(state.equivalent_plastic_strain, state.plastic_strain_rate).stress;
   }

@@ -14,7 +14,6 @@
 //                     an argument if they change.
 //   elastic_energy    stored energy, J per m³ of current volume.
 //   dissipation       energy dissipated so far, J per m³ of reference volume.
-//   equivalent_stress the stress that is compared with the flow stress, Pa.
 //   flow_stress       the equivalent stress at which the point yields, Pa; infinity if it never yields.
 //   plastic_strain    optional, for laws with plastic work: its rate times flow_stress is the power of that work.
 //   has_flowed        optional, for laws whose plastic flow conserves volume, or that soften: true if the point ever
@@ -87,10 +86,9 @@ concept Law = std::copyable<L> && std::default_initializable<typename L::State> 
              const typename L::State& committed) {
   { law.step(step, stress, state) } -> std::same_as<PointStress>;
   { law.moduli() } -> std::same_as<Moduli>;
-  { law.elastic_energy(stress, committed) } -> std::same_as<double>;     // J per m³ of current volume
-  { law.dissipation(committed) } -> std::same_as<double>;                // J per m³ of reference volume, so far
-  { law.equivalent_stress(stress, committed) } -> std::same_as<double>;  // Pa
-  { law.flow_stress(committed) } -> std::same_as<double>;                // Pa
+  { law.elastic_energy(stress, committed) } -> std::same_as<double>;  // J per m³ of current volume
+  { law.dissipation(committed) } -> std::same_as<double>;             // J per m³ of reference volume, so far
+  { law.flow_stress(committed) } -> std::same_as<double>;             // Pa
   { L::state_names.size() } -> std::convertible_to<std::size_t>;
 };
 

@@ -30,11 +30,6 @@ PointStress PolymerFoam::step(const PointStep& step, const Symmetric& stress, St
   return {next, true};
 }
 
-double PolymerFoam::equivalent_stress(const Symmetric& stress, const State& state) const {
-  const double J = determinant(state);
-  return nearness(J * von_mises(stress), -J * trace(stress) / 3, surface(state.compaction)) * flow_stress(state);
-}
-
 Curve<double> PolymerFoam::hardening(const TableHardening& table, double strain) {
   if (table.strains.empty()) return {0, 0};
   return strain < 0 ? Curve<double>{table.stresses.front(), 0} : table(0, strain);

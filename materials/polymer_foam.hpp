@@ -79,9 +79,6 @@ struct PolymerFoam {
     return {y.uniaxial, y.hydrostatic};
   }
 
-  // The uniaxial compression that is equally close to yield: τ_y/J times the factor by which the yield surface, scaled
-  // toward zero stress, passes through the stress.
-  double equivalent_stress(const Symmetric& stress, const State& state) const;
   // τ_y/J: the Cauchy stress of continued flow in uniaxial compression.
   double flow_stress(const State& state) const { return surface(state.compaction).uniaxial / determinant(state); }
 

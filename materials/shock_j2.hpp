@@ -108,7 +108,6 @@ struct ShockJ2 {
   bool has_flowed(const State& state) const { return metal.has_flowed(state); }
   double dissipation(const State& state) const { return metal.dissipation(state); }
   double heat(const State& state) const { return metal.heat(state); }
-  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State& state) const { return metal.flow_stress(state); }
   void set_initial_temperature(double to) { metal.set_initial_temperature(to); }
 

@@ -60,7 +60,6 @@ struct ThermalJ2 {
     return (heating.taylor_quinney * plastic_work + viscous_work) / heating.capacity;
   }
   double heat(const State& state) const { return heating.capacity * (state.temperature - heating.initial); }
-  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State& state) const;
   void set_initial_temperature(double to) { heating.initial = to; }
 

@@ -7,9 +7,10 @@
 #include <cctype>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <iomanip>
 
 #include "base/errors.hpp"
+#include "base/text.hpp"
 #include "materials/library_calls.hpp"
 #include "materials/step_work.hpp"
 #include "materials/strut_law.h"
@@ -70,22 +71,18 @@ std::array<char, name_length> fortran_text(const std::string& name) {
 // The arguments of UMAT and VUMAT that all points share. Both get one point at a time, since points in substeps have
 // steps of their own.
 struct Fixed {
-  Fixed(const UserLaw& law, const double* constants)
-      : cmname(fortran_text(law.name)),
-        props(const_cast<double*>(constants)),  // Fortran has no const
-        nprops(count_of(law.constants)),
-        nstatv(law.states) {}
-
-  std::array<char, name_length> cmname;
-  double* props;
-  int ndir = 3, nshr = 3, nprops, nstatv;
+  const UserLaw& law;
+  const double* constants;
+  std::array<char, name_length> cmname = fortran_text(law.name);
+  double* props = const_cast<double*>(constants);  // Fortran has no const
+  int ndir = 3, nshr = 3, nprops = count_of(law.constants), nstatv = law.states;
 };
 
 void call_umat(const UserLaw& law, const strut_step& s, Inside& here) {
   // UMAT's shear components are xy xz yz, and shear strains are doubled.
   constexpr int place[6] = {0, 1, 2, 3, 5, 4};
   constexpr int full[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
-  Fixed fixed(law, s.constants);
+  Fixed fixed{law, s.constants};
   for (int p = 0; p < s.points; ++p) {
     here.takes(p);
     const auto at = [&](const double* values, int c) { return values[c * s.points + p]; };
@@ -118,7 +115,7 @@ void call_umat(const UserLaw& law, const strut_step& s, Inside& here) {
 
 void call_vumat(const UserLaw& law, const strut_step& s, Inside& here) {
   constexpr int full[9] = {0, 1, 2, 3, 4, 5, 3, 4, 5};  // 11 22 33 12 23 31 21 32 13
-  Fixed fixed(law, s.constants);
+  Fixed fixed{law, s.constants};
   for (int p = 0; p < s.points; ++p) {
     here.takes(p);
     const auto at = [&](const double* values, int c) { return values[c * s.points + p]; };
@@ -150,14 +147,9 @@ void call_vumat(const UserLaw& law, const strut_step& s, Inside& here) {
 
 void call(const UserLaw& law, const strut_step& s) {
   Inside here(law.function.file);
-  switch (law.function.interface) {
-    case LibraryInterface::strut:
-      return reinterpret_cast<StrutLaw>(law.function.address)(&s);
-    case LibraryInterface::umat:
-      return call_umat(law, s, here);
-    case LibraryInterface::vumat:
-      return call_vumat(law, s, here);
-  }
+  const LibraryInterface its = law.function.interface;
+  if (its == LibraryInterface::strut) return reinterpret_cast<StrutLaw>(law.function.address)(&s);
+  its == LibraryInterface::umat ? call_umat(law, s, here) : call_vumat(law, s, here);
 }
 
 // The points at which the library changed more of the state that it was lent than its state variables and energies.
@@ -188,10 +180,7 @@ std::string other_processor(const std::string& file) {
   };
   const std::string its = head(file), own = head("/proc/self/exe");
   constexpr int machine = 18;  // ELF: e_machine, two bytes
-  if (!its.starts_with("\x7f"
-                       "ELF") ||
-      its.substr(machine) == own.substr(machine))
-    return "";
+  if (its.substr(0, 4) != own.substr(0, 4) || its.substr(machine) == own.substr(machine)) return "";
   const auto number = [](const std::string& bytes) {
     return std::to_string(static_cast<unsigned char>(bytes[machine]) +
                           256 * static_cast<unsigned char>(bytes[machine + 1]));
@@ -314,10 +303,8 @@ std::string problem_at_rest(const UserLaw& law) {
   if (!still.converged) return "in a step without strain " + std::string(complaint);
   const double large = still.stress.cwiseAbs().maxCoeff();
   if (!(large > 1e-9 * law.moduli().bulk)) return "";
-  std::ostringstream text;
-  text.precision(4);
-  text << "gives a stress of " << large << " Pa in a step of the undeformed state without strain; expected none";
-  return text.str();
+  return text_of(std::setprecision(4), "gives a stress of ", large,
+                 " Pa in a step of the undeformed state without strain; expected none");
 }
 
 struct TriedStiffness {
@@ -337,10 +324,8 @@ TriedStiffness tried_stiffness(UserLaw law, double dt) {
     const Symmetric stretch = identity() + d;
     const PointStress next =
         law.step(PointStep{d / dt, dt, to_tensor(stretch).determinant(), stretch}, Symmetric::Zero(), state);
-    if (!next.converged) {
-      tried.found = false;
-      return tried;
-    }
+    tried.found = next.converged;
+    if (!tried.found) return tried;
     if (state.stored > 0) tried.tells_energy = true;
     tried.stiffness.col(c) = next.stress / trial_strain;
   }
@@ -352,23 +337,18 @@ TriedStiffness tried_stiffness(UserLaw law, double dt) {
 
 std::string if_unstable(const UserLaw& law, const TriedStiffness& tried) {
   if (!(tried.softest < -1e-3 * stiffness_given(law))) return "";
-  std::ostringstream text;
-  text.precision(4);
-  text << "has an elastic stiffness of " << tried.softest
-       << " Pa in some direction, which lets no body stand; expected none "
-       << "below 0: are its signs, and the order of its components, those of its interface?";
-  return text.str();
+  return text_of(std::setprecision(4), "has an elastic stiffness of ", tried.softest,
+                 " Pa in some direction, which lets no body stand; expected none below 0: are its signs, and the order "
+                 "of its components, those of its interface?");
 }
 
 std::string if_soft(const UserLaw& law, const TriedStiffness& tried) {
   const double expected = stiffness_given(law);
   if (!(tried.stiffest < (1 - 10 * given_constants) * expected)) return "";
-  std::ostringstream text;
-  text.precision(4);
-  text << "is softer, " << tried.stiffest << " Pa, than its elastic constants say, " << expected
-       << " Pa (the larger of 3 K and 2 G): time steps will be shorter than necessary, contact and stabilization "
-          "stiffer; are its constants in Pa?";
-  return text.str();
+  return text_of(
+      std::setprecision(4), "is softer, ", tried.stiffest, " Pa, than its elastic constants say, ", expected,
+      " Pa (the larger of 3 K and 2 G): time steps will be shorter than necessary, contact and stabilization "
+      "stiffer; are its constants in Pa?");
 }
 
 std::string if_unsymmetric(const TriedStiffness& tried) {
@@ -387,11 +367,8 @@ std::string stiffer_in(const UserLaw& law, double dt) {
   const TriedStiffness tried = tried_stiffness(law, dt);
   if (!tried.found) return "";
   const auto says = [dt](double found, double given, const char* name) {
-    std::ostringstream text;
-    text.precision(4);
-    text << "is stiffer, " << found << " Pa, than its elastic constants say, " << given << " Pa (" << name
-         << "), in a step of " << dt << " s";
-    return text.str();
+    return text_of(std::setprecision(4), "is stiffer, ", found, " Pa, than its elastic constants say, ", given, " Pa (",
+                   name, "), in a step of ", dt, " s");
   };
   const double given = stiffness_given(law), wave = law.bulk + 4 * law.shear / 3;
   const double uniaxial = tried.stiffness.diagonal().head<3>().maxCoeff();
@@ -407,14 +384,10 @@ std::string too_stiff_in(const UserLaw& law, double dt) {
 }
 
 LibraryTrial tried(const UserLaw& law) {
-  LibraryTrial found;
-  found.problem = problem_at_rest(law);
+  LibraryTrial found{.problem = problem_at_rest(law)};
   if (!found.problem.empty()) return found;
   const TriedStiffness trial = tried_stiffness(law, trial_step);
-  if (!trial.found) {
-    found.problem = "for a strain of 1e-7 " + std::string(complaint);
-    return found;
-  }
+  if (!trial.found) return {.problem = "for a strain of 1e-7 " + std::string(complaint)};
   found.tells_energy = trial.tells_energy;
   found.problem = if_unstable(law, trial);
   for (const std::string& warning : {if_soft(law, trial), if_unsymmetric(trial)}) {

@@ -83,7 +83,6 @@ struct UserLaw {
   // Flow is assumed to keep the volume, as in metals: integration points of a quadratic cell then share their change of
   // volume. Flow by a strain of some 1e-10 is round-off of a law that balances its energies.
   bool has_flowed(const State& state) const { return tells_energy && state.dissipated > 1e-12 * bulk; }
-  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
   std::string why_no_stress() const;  // for the last step without a stress
 

@@ -45,6 +45,10 @@ void raise_together(const Communicator& communicator, const std::string& problem
   throw Error(all);
 }
 
+void raise_first(const Communicator& communicator, const std::string& problem) {
+  raise_together(communicator, communicator.first_rank(!problem.empty()) == communicator.rank() ? problem : "");
+}
+
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& valid) {
   const std::string* nearest = nullptr;
   std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;  // a larger distance is no similarity

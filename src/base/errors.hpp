@@ -18,6 +18,7 @@ class Error : public std::runtime_error {
 
 // Collective. If `problem` is not empty on any rank, throws Error on all ranks with the distinct texts in rank order.
 void raise_together(const Communicator& communicator, const std::string& problem);
+void raise_first(const Communicator& communicator, const std::string& problem);  // with the first of these texts only
 
 // Collective. Runs `action` on rank 0 only; its exception (any std::exception) becomes an Error on all ranks.
 template <class Action>

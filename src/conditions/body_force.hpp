@@ -23,7 +23,7 @@ struct BodyForce {
   std::vector<Function> values_at_points() const { return {value}; }
   BodyForce on(std::vector<int> all, int, const Body&) const { return {std::move(all), components, value}; }
 
-  BodyForce in_substeps(const MovingPoints& moving) const { return {moving.among(points), components, value}; }
+  BodyForce on_some(const MovingPoints& some) const { return {some.among(points), components, value}; }
   void add_forces(double t, double part, Body& body) const;
   void add_work(double t, double impulse_time, const Body& body, ImpulseWork& work) const;
 };

@@ -79,16 +79,16 @@ concept IsPrototype = requires(const T& prototype, std::vector<int> points, int 
 
 // Stage::forces. With substeps, add_forces and add_work may be called at several times of a step, for the mean. The
 // estimate of the critical time step does not include it: if it is stiff, the deck needs a smaller Safety Factor.
-//   add_forces   adds `part` of its force density at time t
-//   add_work     adds the work of these forces, once velocities are final; impulse_time is the time for which they act
-//   in_substeps  its part for some points
-//   points       member: owned points
+//   add_forces  adds `part` of its force density at time t
+//   add_work    adds the work of these forces, once velocities are final; impulse_time is the time for which they act
+//   on_some     its part for some of its points
+//   points      member: owned points
 template <class T>
 concept AddsForces = requires(const T& condition, double t, double part, double impulse_time, Body& body,
                               const Body& after, ImpulseWork& work, const MovingPoints& some) {
   { condition.add_forces(t, part, body) } -> std::same_as<void>;
   { condition.add_work(t, impulse_time, after, work) } -> std::same_as<void>;
-  { condition.in_substeps(some) } -> std::same_as<T>;
+  { condition.on_some(some) } -> std::same_as<T>;
   { condition.points } -> std::convertible_to<const std::vector<int>&>;
 };
 

@@ -46,12 +46,6 @@ bool depend_on_time(const Conditions& conditions, Stage stage) {
   return any;
 }
 
-Conditions loads_of(const Conditions& conditions) {
-  Conditions loads;
-  conditions.visit([&](const AddsForces auto& one) { loads.add(one); });
-  return loads;
-}
-
 namespace {
 
 // Collective. True if these points on all ranks are all those of the bodies to which they belong.
@@ -69,23 +63,52 @@ bool are_whole_bodies(const std::vector<int>& points, const Body& body) {
 
 }  // namespace
 
-std::pair<Conditions, Conditions> on_wholes_and_parts(const Conditions& loads, const Body& body) {
+std::pair<Conditions, Conditions> loads_on_wholes_and_parts(const Conditions& conditions, const Body& body) {
   std::pair<Conditions, Conditions> found;
-  loads.visit(
+  conditions.visit(
       [&](const AddsForces auto& one) { (are_whole_bodies(one.points, body) ? found.first : found.second).add(one); });
   return found;
 }
 
-std::vector<std::uint8_t> moved_apart_in_time(const Conditions& conditions, const Body& body) {
-  std::vector<std::uint8_t> marks;
+Conditions loads_on(const Conditions& loads, const MovingPoints& some) {
+  Conditions parts;
+  loads.visit([&](const AddsForces auto& one) { parts.add(one.on_some(some)); });
+  return parts;
+}
+
+Conditions changing_on_parts(const Conditions& conditions, const Body& body) {
+  Conditions changing;
   conditions.visit([&]<class T>(const T& one) {
     if constexpr (AddsForces<T> || std::same_as<T, PrescribedMotion>) {
       const std::vector<Function> values = one.values_at_points();
-      if (std::ranges::none_of(values, &Function::depends_on_time) || are_whole_bodies(one.points, body)) return;
-      marks.resize(body.owned(), 0);
-      for (const int i : one.points) marks[i] = 1;
+      if (std::ranges::any_of(values, &Function::depends_on_time) && !are_whole_bodies(one.points, body))
+        changing.add(one);
     }
   });
+  return changing;
+}
+
+std::vector<std::uint8_t> moved_within(const Conditions& changing, const Body& body, double t, double dt, int times) {
+  std::vector<std::uint8_t> marks;
+  if (changing.count() == 0) return marks;
+  marks.assign(body.owned(), 0);
+  for (int n = 1; n <= times; ++n) {
+    const double now = t + n * dt / times;
+    changing.visit([&](const AddsForces auto& one) {
+      for (const Function& value : one.values_at_points()) {
+        for (const int i : one.points) marks[i] |= value(body.domain.reference(i), now) != 0 ? 1 : 0;
+      }
+    });
+    std::vector<Vector> velocities = body.velocity;
+    changing.visit([&](const PrescribedMotion& one) {
+      constexpr double round_off = 1e-9;  // of a slope of positions
+      one.predict_velocities(now, dt / times, body, velocities);
+      for (const int i : one.points) {
+        const Vector change = velocities[i] - body.velocity[i];
+        marks[i] |= change.norm() > round_off * velocities[i].norm() ? 1 : 0;
+      }
+    });
+  }
   return marks;
 }
 
@@ -115,7 +138,6 @@ Conditions in_substeps(const Conditions& conditions, const MovingPoints& moving)
   conditions.visit([&](const ChangesVelocities auto& one) {
     if (auto part = one.in_substeps(moving)) some.add(std::move(*part));
   });
-  conditions.visit([&](const AddsForces auto& one) { some.add(one.in_substeps(moving)); });
   return some;
 }
 

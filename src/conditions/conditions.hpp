@@ -68,13 +68,15 @@ class Conditions {
 // True if any condition of a stage has a value that changes with time.
 bool depend_on_time(const Conditions& conditions, Stage stage);
 
-// The conditions that add forces.
-Conditions loads_of(const Conditions& conditions);
-// Collective. Those of such conditions that act on all points of each body that they act on, and the others.
-std::pair<Conditions, Conditions> on_wholes_and_parts(const Conditions& loads, const Body& body);
-// Collective. Marks of owned points that loads and prescribed motions of a part of a body may move otherwise than the
-// rest within a step, because they change with time; empty if there are none on this rank.
-std::vector<std::uint8_t> moved_apart_in_time(const Conditions& conditions, const Body& body);
+// Collective. The conditions that add forces, those first that act on all points of each body that they act on.
+std::pair<Conditions, Conditions> loads_on_wholes_and_parts(const Conditions& conditions, const Body& body);
+// Their parts for some points.
+Conditions loads_on(const Conditions& loads, const MovingPoints& some);
+// Collective. The loads and prescribed motions of parts of bodies that change with time.
+Conditions changing_on_parts(const Conditions& conditions, const Body& body);
+// Marks of owned points that these move within the step from t over dt (s), otherwise than at their present velocities,
+// at one of so many times; empty if there are none.
+std::vector<std::uint8_t> moved_within(const Conditions& changing, const Body& body, double t, double dt, int times);
 
 // Adds `part` of the forces of conditions at time t (s) to the force density.
 void add_forces(const Conditions& conditions, double t, double part, Body& body);
@@ -88,7 +90,7 @@ void add_work_of_forces(const Conditions& conditions, double t, double impulse_t
 void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body, ImpulseWork& work,
                        ReactionImpulses& impulses);
 
-// The parts of conditions that act on some points, at times between whole steps.
+// The conditions that act at times between whole steps.
 Conditions in_substeps(const Conditions& conditions, const MovingPoints& moving);
 
 // Velocities of owned points at time t: those that conditions impose (of positions the slope over the `moment`, s,

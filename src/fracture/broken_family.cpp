@@ -111,7 +111,7 @@ double part_that_releases(const materials::Moduli& moduli, const Tensor& strain,
 bool refit(Body& body, MaterialBlock& block, int k, double most) {
   if (block.is_ordinary()) return true;
   if (!block.is_quadratic()) return refit_shape(body, block, k, most);
-  return body.fits->refit(body, block.points[k], block.flowed[k] > 0, most);
+  return body.fits->refit(body, block.points[k], block.flowed[k] == 1, most);
 }
 
 bool refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start) {

@@ -5,7 +5,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <utility>
 
 #include "base/errors.hpp"
 
@@ -49,10 +48,6 @@ FileLock::FileLock(const std::filesystem::path& path, File file)
   fail_as_held(path);
 }
 
-FileLock::~FileLock() {
-  if (handle_ >= 0) ::close(handle_);
-}
-
-FileLock::FileLock(FileLock&& other) noexcept : handle_(std::exchange(other.handle_, -1)) {}
+FileLock::~FileLock() { ::close(handle_); }
 
 }  // namespace strut::io

@@ -13,11 +13,10 @@ class FileLock {
   enum class File { made, there };  // created if it does not exist
   explicit FileLock(const std::filesystem::path& path, File file = File::made);
   ~FileLock();
-  FileLock(FileLock&& other) noexcept;
-  FileLock& operator=(FileLock&&) = delete;
+  FileLock(const FileLock&) = delete;
 
  private:
-  int handle_ = -1;
+  int handle_;
 };
 
 // Throws Error if another run holds a lock on the file. Locks and creates nothing.

@@ -55,13 +55,14 @@ struct MaterialBlock {
   FieldRef<small::Tiles> state = fields.add<small::Tiles>(At::integration_point, {});
   // Integration points of quadratic correspondence; other formulations use body.points.
   FieldRef<CellPoints> cells = fields.add<CellPoints>(At::integration_point, CellPoints::parts(), When::if_used);
-  PointField<std::uint8_t> flowed =
-      fields.of_points<std::uint8_t>({.name = "flowed",
-                                      .unit = "1",
-                                      .meaning = "1 where the metal of a cell by quadratic correspondence has flowed",
-                                      .persistent = true,
-                                      .variable = "Flowed"},
-                                     When::if_used);  // begin_flow
+  PointField<std::uint8_t> flowed = fields.of_points<std::uint8_t>(
+      {.name = "flowed",
+       .unit = "1",
+       .meaning = "1 where the metal of a cell by quadratic correspondence has flowed, 2 where it began to under a "
+                  "pressure above 0.8 of its flow stress",
+       .persistent = true,
+       .variable = "Flowed"},
+      When::if_used);  // begin_flow
   PointField<OrdinaryPoint> ordinary =
       fields.add<std::vector<OrdinaryPoint>>(At::point, OrdinaryPoint::parts(), When::if_used);
   PointField<ViscousPoint> viscous =

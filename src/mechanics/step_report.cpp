@@ -7,6 +7,7 @@ namespace strut {
 std::string place_text(const Vector& place) { return text_of("(", place[0], ", ", place[1], ", ", place[2], ") m"); }
 
 std::string locate(const Body& body, int i) {
+  if (i < 0) return "";
   const PointCloud& cloud = body.domain.cloud;
   return text_of(word(cloud.at), " ", cloud.element_ids[i], " of block ", cloud.block_names[cloud.blocks[i]],
                  ", reference position ", place_text(body.domain.reference(i)), ", now at ",

@@ -24,7 +24,7 @@ inline void take_worse(const std::optional<Failure>& other, std::optional<Failur
 
 std::string place_text(const Vector& place);  // "(x, y, z) m"
 
-// "element 17 of block foam, reference position (…) m, now at (…) m"
+// "element 17 of block foam, reference position (…) m, now at (…) m"; "" for −1, a point of another rank
 std::string locate(const Body& body, int i);
 
 // locate(), followed by the failure and its likely cause.

@@ -289,24 +289,14 @@ const Observable* find(const std::vector<Observable>& all, const std::string& na
 
 }  // namespace
 
-std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
-                               const std::string& where) {
+const Observable& chosen(const std::vector<Observable>& all, const std::string& name, const std::string& where) {
+  if (const Observable* found = find(all, name)) return *found;
   const std::vector<std::string> valid = names_of(all);
-  std::vector<Observable> result;
-  std::vector<std::string> problems;
-  for (const std::string& name : names) {
-    if (const Observable* found = find(all, name)) {
-      result.push_back(*found);
-    } else {
-      const bool of_others = strut::find(observables_of_all_laws(), name) != nullptr;
-      problems.push_back(where + " > " + name + ": " +
-                         (of_others ? "no material of this deck has a law with this state variable"
-                                    : "no such variable" + did_you_mean(name, valid)) +
-                         "; valid are " + joined(valid));
-    }
-  }
-  if (!problems.empty()) throw Error(joined(problems, "\n"));
-  return result;
+  const bool of_others = find(observables_of_all_laws(), name) != nullptr;
+  throw Error(where + " > " + name + ": " +
+              (of_others ? "no material of this deck has a law with this state variable"
+                         : "no such variable" + did_you_mean(name, valid)) +
+              "; valid are " + joined(valid));
 }
 
 std::optional<PointNumber> PointNumber::find(const std::vector<Observable>& all, const std::string& name) {

@@ -35,10 +35,8 @@ std::vector<Observable> observables_of_all_laws();
 // The page inputs/VARIABLES.md: the fixed ones, and the state variables of all laws.
 std::string observables_page();
 
-// The members of `all` with these names. Throws one Error for all unknown names, with the valid ones. `where`: path in
-// the deck.
-std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
-                               const std::string& where);
+// The member of `all` with this name; throws Error, with the valid names. `where`: path in the deck.
+const Observable& chosen(const std::vector<Observable>& all, const std::string& name, const std::string& where);
 
 // A scalar per point: an observable with one component, a component of another ("Displacement_Z"), or the root of the
 // sum of squares of its components ("Displacement").

@@ -221,7 +221,7 @@ void check_output_variables(const deck::Deck& deck, const PointCloud& cloud, con
                             deck::Problems& problems) {
   const std::vector<Observable> all = observables_of(deck, problems);
   for (const std::string& name : deck.output.variables) {
-    attempt(problems, [&] { chosen(all, {name}, "Output > Output Variables"); });
+    attempt(problems, [&] { chosen(all, name, "Output > Output Variables"); });
   }
   for (const std::string& name : deck.history.variables) {
     const std::string in_brackets = name.substr(std::min(name.size(), before_bracket(name).size() + 1));
@@ -241,7 +241,7 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
   OutputVariables variables;
   deck::Problems problems;
   for (const std::string& name : deck.output.variables) {
-    attempt(problems, [&] { variables.frame.push_back(chosen(all, {name}, "Output > Output Variables").front()); });
+    attempt(problems, [&] { variables.frame.push_back(chosen(all, name, "Output > Output Variables")); });
   }
   for (const std::string& name : deck.history.variables) {
     attempt(problems, [&] {

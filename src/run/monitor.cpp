@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <sstream>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -30,8 +29,7 @@ constexpr double far_stretched = 8;
 // Above this largest |ln det F| laws in rate form may cause a balance error: their stored energy errs by a third of it.
 constexpr double much_volume = 0.02;
 
-// Least balance error that gets a warning, relative to the largest energy; limit of an energy gain over that of a loss.
-constexpr double worth_a_warning = 0.01, of_gains = 0.2;
+constexpr double of_gains = 0.2;  // limit of an energy gain over that of a loss
 
 // Least fraction of the plastic work that gets a warning if load steps miss it: a compression in ten steps misses half
 // of what flows in the one in which it begins to, 5 %.
@@ -101,26 +99,23 @@ std::string balance_of(const Ledger& ledger, const Body& body, bool steps) {
   }
   const double change = largest_volume_change(body);
   const bool expands = body.domain.communicator.any(!body.expansion.empty());  // a rank may have no points
-  std::ostringstream text;
-  text << "the balance of energy has an error of " << 100 * ledger.balance_error << " % of the largest energy, "
-       << std::abs(ledger.gained) << " J "
-       << (ledger.gained > 0 ? "out of nothing: the run is " : "that nothing accounts for: the run is ")
-       << (ledger.gained > 0 && steps ? "unstable, or too" : "too")
-       << " coarse in time (Watch > Balance Error). Likely causes: "
-       << (steps ? "a Fixed dt above the critical time step, a load too sudden, contact, a tool with a Mass or one "
-                   "with friction that meets points with substeps (Subcycling)"
-                 : "too few load steps (the work of each is that of the mean of the forces at its ends: one that jumps "
-                   "from nothing errs most), a Tolerance too large")
-       << (expands
-               ? ", thermal expansion of a law without an energy of its own, whose balance errs by some part of the "
-                 "thermal strain"
-               : "");
-  if (change > much_volume) {
-    text << ", the law of points whose volume has changed by a factor of up to " << std::exp(change)
-         << ": it follows from rates alone, and what it stores errs by up to " << 100 * change / 3 << " %";
-  }
-  if (steps) text << "; the last frame shows where points fly off";
-  return text.str();
+  const std::string of_rates =
+      change > much_volume
+          ? text_of(", the law of points whose volume has changed by a factor of up to ", std::exp(change),
+                    ": it follows from rates alone, and what it stores errs by up to ", 100 * change / 3, " %")
+          : "";
+  return text_of("the balance of energy has an error of ", 100 * ledger.balance_error, " % of the largest energy, ",
+                 std::abs(ledger.gained), " J ", ledger.gained > 0 ? "out of nothing" : "that nothing accounts for",
+                 ": the run is ", ledger.gained > 0 && steps ? "unstable, or " : "",
+                 "too coarse in time (Watch > Balance Error). Likely causes: ",
+                 steps ? "a Fixed dt above the critical time step, a load too sudden, contact, a tool with a Mass or "
+                         "one with friction that meets points with substeps (Subcycling)"
+                       : "too few load steps (the work of each is that of the mean of the forces at its ends: one that "
+                         "jumps from nothing errs most), a Tolerance too large",
+                 expands ? ", thermal expansion of a law without an energy of its own, whose balance errs by some part "
+                           "of the thermal strain"
+                         : "",
+                 of_rates, steps ? "; the last frame shows where points fly off" : "");
 }
 
 // Collective. The first point without a number as its force, velocity or place, on one rank; nothing where all have
@@ -132,13 +127,10 @@ std::string without_a_number(const Body& body) {
         body.current(i).allFinite() && body.velocity[i].allFinite() && body.force_density[i].allFinite();
     if (!is_right) point = i;
   }
-  std::string text;
-  if (point >= 0) {
-    text = "the force, velocity or place of a point is not a number: " + locate(body, point) +
-           ". Likely causes: a tool or a condition that has put several points in one place (bonds between them have "
-           "no direction), a load or a speed far too large";
-  }
-  return of_first(body, point >= 0, text);
+  return of_first(body, point >= 0,
+                  "the force, velocity or place of a point is not a number: " + locate(body, point) +
+                      ". Likely causes: a tool or a condition that has put several points in one place (bonds between "
+                      "them have no direction), a load or a speed far too large");
 }
 
 }  // namespace
@@ -157,10 +149,8 @@ void Monitor::passed(What what, const std::string& text) {
 
 void Monitor::check_step(const CentralDifference& solver) {
   dt_ = solver.dt();
-  if (solver.went_on() && !warned_[point]) {
-    if (!solver.warning().empty()) print_("WARNING: " + solver.warning() + " (Watch > Inverted Points; told once)");
-    warned_[point] = true;
-  }
+  if (solver.went_on())
+    warn_once(point, solver.warning().empty() ? "" : solver.warning() + " (Watch > Inverted Points)");
   const double now = solver.critical_time_step();  // the step that is taken may be shorter at the end of the run
   if (first_step_ == 0) first_step_ = now;
   const contact::Contact& contact = solver.contact();
@@ -287,9 +277,7 @@ void Monitor::check_failed(double time) {
   const double all = body_.domain.communicator.sum(static_cast<double>(own));
   if (failed_before_ < 0) failed_before_ = all;
   if (!(all > failed_before_)) return;
-  const std::string where = failed_before_ > 0 ? ", beside those that had before"
-                            : own > 0          ? ": " + locate(body_, point)
-                                               : "";
+  const std::string where = failed_before_ > 0 ? ", beside those that had before" : ": " + locate(body_, point);
   warn_once(failing,
             of_first(body_, own > 0,
                      text_of(at(time), all - failed_before_,
@@ -349,27 +337,6 @@ void Monitor::check_springs(double time) {
                "Stabilization Coefficient than the default"));
 }
 
-// Springs in series have one force, so each has the part of the shortening that it has of the stored energy. In a
-// body that flows contact has up to twice that part.
-void Monitor::check_soft_contact(const Ledger& ledger, const contact::Contact& contact, bool last, Steps steps) {
-  constexpr double slow = 0.05;          // kinetic over internal energy: as users of explicit finite elements accept
-  constexpr double worth_saying = 0.05;  // of the shortening; warnings of thin members begin there, too
-  if (!contact.any()) return;
-  const double stored = body_.domain.communicator.sum(contact.energy_of_surfaces());
-  const double internal = stored + ledger.elastic + ledger.dissipated + ledger.stabilization;
-  if (stored > most_in_contact_ && ledger.kinetic <= slow * internal)
-    most_in_contact_ = stored, part_in_contact_ = stored / internal;
-  if (!last || !(part_in_contact_ > worth_saying && most_in_contact_ > worth_a_warning * ledger.largest)) return;
-  const double stiffer = part_in_contact_ / (1 - part_in_contact_) * (1 - worth_saying) / worth_saying;
-  warn(
-      soft_contact,
-      text_of(std::setprecision(2), "contact between surfaces held up to ", 100 * part_in_contact_,
-              " % of the energy that it and the bodies took up: it gives way by so much of the shortening, and elastic "
-              "bodies that press on each other are too soft by it. For 5 % expected ",
-              steps == Steps::of_load ? "" : "a finer mesh, or equilibria (Solver > QuasiStatic) with ",
-              "a Stiffness Factor ", stiffer, " times as large (Contact > Models)"));
-}
-
 void Monitor::check_inverted(double time) {
   constexpr double flat = 20;  // flatness: two layers have 1.3; F across a plane of neighbors is anything
   if (warned_[inverted]) return;
@@ -384,15 +351,16 @@ void Monitor::check_inverted(double time) {
     if (point < 0 && found != block.points.end()) point = *found;
   }
   if (!body_.domain.communicator.any(point >= 0)) return;
-  std::ostringstream text;
-  if (point >= 0) {
-    text << at(time)
-         << "a point of an ordinary solid is turned inside out, and the run goes on, for only the other "
-            "laws fail there (Watch > Inverted Points): its Jacobian is "
-         << body_.points[point].deformation_gradient.determinant() << ": " << locate(body_, point)
-         << ". Likely causes: a load or a motion too large or too sudden, bodies that fold without Self Contact";
-  }
-  warn_once(inverted, of_first(body_, point >= 0, text.str()));
+  const std::string where =
+      point < 0 ? "" : text_of(body_.points[point].deformation_gradient.determinant(), ": ", locate(body_, point));
+  warn_once(inverted,
+            of_first(body_, point >= 0,
+                     at(time) +
+                         "a point of an ordinary solid is turned inside out, and the run goes on, for only the other "
+                         "laws fail there (Watch > Inverted Points): its Jacobian is " +
+                         where +
+                         ". Likely causes: a load or a motion too large or too sudden, bodies that fold without Self "
+                         "Contact"));
 }
 
 // The largest stretch of a point with all its bonds is at most the norm of F.
@@ -404,15 +372,15 @@ void Monitor::check_stretch(double time) {
     if (here > largest) largest = here, point = i;
   }
   if (!(body_.domain.communicator.max(largest) > far_stretched)) return;
-  const std::string where = point < 0 ? "" : locate(body_, point);
-  warn_once(stretch,
-            of_largest(body_, largest,
-                       text_of(at(time), "neighbors have been drawn ", largest,
-                               " spacings apart: the shape between them is not resolved, and nothing tears "
-                               "where the deck has no Damage Model: ",
-                               where,
-                               ". Likely causes: metal near its melting temperature, a speed far above what the "
-                               "metal bears, a load that pulls without an end")));
+  warn_once(
+      stretch,
+      of_largest(body_, largest,
+                 text_of(at(time), "neighbors have been drawn ", largest,
+                         " spacings apart: the shape between them is not resolved, and nothing tears where the deck "
+                         "has no Damage Model: ",
+                         locate(body_, point),
+                         ". Likely causes: metal near its melting temperature, a speed far above what the metal "
+                         "bears, a load that pulls without an end")));
 }
 
 }  // namespace strut

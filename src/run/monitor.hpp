@@ -79,6 +79,7 @@ class Monitor {
   static constexpr double checks = 200;       // checks per run of energies, interpenetration and tools between points
   static constexpr double fewest_steps = 10;  // between these checks
   static constexpr double costly = 10;        // one of this many checks is for undeclared contact
+  static constexpr double worth_a_warning = 0.01;  // least balance error that gets one, of the largest energy
   double pause() const { return std::max(pause_, fewest_steps * dt_); }  // s, between checks
   void passed(What what, const std::string& text);
   // True if this limit has nothing more to say. A run that continues may stop where the one before it went on.

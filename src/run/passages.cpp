@@ -1,7 +1,7 @@
-// The checks of what passes through what: bodies, tools and planes.
+// The checks of contact, and of what passes through what: bodies, tools and planes.
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <iomanip>
 
 #include "base/errors.hpp"
 #include "base/text.hpp"
@@ -28,6 +28,27 @@ void Monitor::check_interpenetration(double time, const contact::Contact& contac
                                                                     : ", a Contact Radius far below the spacing");
   }
   passed(interpenetration, text);
+}
+
+// Springs in series have one force, so each has the part of the shortening that it has of the stored energy. In a
+// body that flows contact has up to twice that part.
+void Monitor::check_soft_contact(const Ledger& ledger, const contact::Contact& contact, bool last, Steps steps) {
+  constexpr double slow = 0.05;          // kinetic over internal energy: as users of explicit finite elements accept
+  constexpr double worth_saying = 0.05;  // of the shortening; warnings of thin members begin there, too
+  if (!contact.any()) return;
+  const double stored = body_.domain.communicator.sum(contact.energy_of_surfaces());
+  const double internal = stored + ledger.elastic + ledger.dissipated + ledger.stabilization;
+  if (stored > most_in_contact_ && ledger.kinetic <= slow * internal)
+    most_in_contact_ = stored, part_in_contact_ = stored / internal;
+  if (!last || !(part_in_contact_ > worth_saying && most_in_contact_ > worth_a_warning * ledger.largest)) return;
+  const double stiffer = part_in_contact_ / (1 - part_in_contact_) * (1 - worth_saying) / worth_saying;
+  warn(
+      soft_contact,
+      text_of(std::setprecision(2), "contact between surfaces held up to ", 100 * part_in_contact_,
+              " % of the energy that it and the bodies took up: it gives way by so much of the shortening, and elastic "
+              "bodies that press on each other are too soft by it. For 5 % expected ",
+              steps == Steps::of_load ? "" : "a finer mesh, or equilibria (Solver > QuasiStatic) with ",
+              "a Stiffness Factor ", stiffer, " times as large (Contact > Models)"));
 }
 
 void Monitor::check_undeclared(double time, const contact::Contact& contact) {
@@ -110,18 +131,19 @@ void Monitor::check_planes(double time) {
     const Passed passed = passed_points(
         domain, [&](int i) { return std::abs(mirror.distance(domain.reference(i))); },
         [&](int i) { return side(i) * mirror.distance(domain.current(i)); });
-    std::ostringstream text;
-    if (passed.one >= 0) {
-      const bool is_mirrored = std::ranges::any_of(domain.mirrors, [&](const Mirror& other) {
-        return other.number == mirror.number && other.body == domain.body_of(passed.one);
-      });
-      text << at(time) << "points have gone through a Symmetry Plane, " << passed.points << " by now, as "
-           << locate(body_, passed.one)
-           << (is_mirrored ? ". Contact does not see mirror images; expected a Rigid Plane there too, or the whole body"
-                           : ", whose body has no mirror image: right if this body is whole; if the scene is half of a "
-                             "symmetric one, expected a Rigid Plane there");
-    }
-    if (passed.points > 0) return warn_once(beyond_plane, text.str());
+    if (passed.points == 0) continue;
+    if (passed.one < 0) return warn_once(beyond_plane, "");
+    const bool is_mirrored = std::ranges::any_of(domain.mirrors, [&](const Mirror& other) {
+      return other.number == mirror.number && other.body == domain.body_of(passed.one);
+    });
+    return warn_once(
+        beyond_plane,
+        text_of(at(time), "points have gone through a Symmetry Plane, ", passed.points, " by now, as ",
+                locate(body_, passed.one),
+                is_mirrored
+                    ? ". Contact does not see mirror images; expected a Rigid Plane there too, or the whole body"
+                    : ", whose body has no mirror image: right if this body is whole; if the scene is half of a "
+                      "symmetric one, expected a Rigid Plane there"));
   }
 }
 
@@ -139,14 +161,14 @@ void Monitor::check_sets_of_tools(double time, const Conditions& conditions, con
     const Passed passed = passed_points(
         domain, [&](int i) { return stopped[i] ? 0 : gap(domain.reference(i)); },
         [&](int i) { return gap(domain.current(i) - offset); });
-    std::ostringstream text;
-    if (passed.one >= 0) {
-      text << at(time) << "the tool '" << name
-           << "' stops the points of its Node Set only: others have gone through its surface, " << passed.points
-           << " by now, as " << locate(body_, passed.one)
-           << ". Expected no Node Set, one of all points that may meet it, or a Rigid Box if the surface ends";
-    }
-    if (passed.points > 0) warn_once(beyond_tool, text.str());
+    if (passed.points == 0) return;
+    if (passed.one < 0) return warn_once(beyond_tool, "");
+    warn_once(
+        beyond_tool,
+        text_of(at(time), "the tool '", name,
+                "' stops the points of its Node Set only: others have gone through its surface, ", passed.points,
+                " by now, as ", locate(body_, passed.one),
+                ". Expected no Node Set, one of all points that may meet it, or a Rigid Box if the surface ends"));
   });
 }
 

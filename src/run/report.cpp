@@ -95,14 +95,16 @@ void Progress::finish() {
   if (speaks_ && terminal_) std::cout << std::endl;
 }
 
+namespace {
+
+// Memory of points, bonds and the solver (the estimate of the critical time step, or the search for equilibria) on all
+// ranks, bytes; the program itself takes some 50 MB per rank, 80 with equilibria.
 double predicted_memory(const Scene& scene) {
   const double solver =
       scene.quasi_static ? QuasiStatic::bytes(scene.body, *scene.quasi_static) : StepLength::bytes(scene.body);
   const double fracture = scene.fracture ? scene.fracture->bytes(scene.body) : 0;
   return scene.body.domain.communicator.sum(footprint(scene.body) + fracture + solver);
 }
-
-namespace {
 
 std::string threads_of_a_rank() { return threads() == 1 ? "" : formatted(" of %d threads", threads()); }
 

@@ -32,10 +32,6 @@ class Progress {
 // Summary of the input: points, bonds, memory, blocks.
 std::string describe_scene(const Scene& scene, const Advice& advice);
 
-// Memory of points, bonds and the solver (the estimate of the critical time step, or the search for equilibria) on all
-// ranks, bytes; the program itself takes some 50 MB per rank, 80 with equilibria.
-double predicted_memory(const Scene& scene);
-
 // Size of a frame of the result file, bytes.
 double frame_bytes(const OutputVariables& variables, std::int64_t points);
 

@@ -88,274 +88,255 @@ struct Run::Parts {
   }
   bool is_over() { return time() >= deck.solver.final_time; }
 
-  void set_up(deck::Problems problems, const InMemory& in_memory, Start start);
-  void make_solver(bool continued, StartState* state = nullptr);
-  void open(bool continued);
-  void begin();
-  void arrive();
+  void set_up(deck::Problems problems, const InMemory& in_memory, Start start) {
+    const bool has_expanded = check_checkpoint(deck, start == Start::anew, communicator, problems);
+    const bool continued = start == Start::continued && checkpoint_exists(deck, communicator);
+    libraries.emplace(deck, communicator);
+    std::optional<StartState> state;
+    if (!continued) state = start_state_of(deck, communicator, problems);
+    PointCloud mesh = checked_mesh(deck, std::move(problems), communicator, in_memory.mesh);
+    read_cracks(deck, communicator);
+    scene = strut::set_up(deck, std::move(mesh), communicator);
+    const std::string started = state ? state->restore(deck, *scene) : "";
+    keep_expansion(has_expanded, scene->body);
+    // Advice is about the state at the start of a run. A continued run that began with Start From is past that state,
+    // and its mesh does not show it.
+    const bool is_past = continued && deck.start_from;
+    const Advice outline = is_past ? Advice{"advice was given at the start\n", scene->warnings} : advice(deck, *scene);
+    say(communicator, describe_scene(*scene, outline) + started);
+    writers.emplace(
+        deck, output_variables_of(deck, scene->body, scene->contact));  // checks all names before a file is replaced
+    history = in_memory.history;
+    writers->history.keep_rows(history);
+    make_solver(continued, state ? &*state : nullptr);
+    open(continued);
+  }
+
+  // `state`: the state of another run, which the body already has.
+  void make_solver(bool continued, StartState* state = nullptr) {
+    const deck::Solver& times = deck.solver;
+    if (scene->quasi_static) {
+      equilibria.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), *scene->quasi_static,
+                         times.initial_time, times.final_time, observer(deck, communicator, early_end),
+                         std::move(scene->fracture));
+      if (state) state->begin(*equilibria);
+      return;
+    }
+    const auto make = [&](auto beginning) {
+      steps.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), scene->control, beginning,
+                    std::move(scene->fracture));
+      // Before it is restored: the impulses of substeps are then restored, too.
+      if (writers->history.has_reactions()) steps->gather_reactions(static_cast<int>(deck.conditions.size()));
+    };
+    if (state && state->goes_on()) {
+      make(CentralDifference::ToBeRestored());
+      state->go_on(*steps);
+    } else if (continued) {
+      make(CentralDifference::ToBeRestored());  // by open(); the mesh may not fit the conditions of the initial time
+    } else {
+      make(times.initial_time);
+      if (state) say(communicator, state->overlaps(steps->contact(), scene->body));
+    }
+  }
+
+  void open(bool continued) {
+    monitor.emplace(deck.watch, deck.solver.final_time - deck.solver.initial_time, scene->body, tell);
+    checkpoint.emplace(deck, communicator, [this](Archive& archive) {
+      with_solver([&](auto& solver) { solver.serialize(archive); });
+      serialize_sets(archive, scene->body, names_of_probes(deck));
+      monitor->serialize(archive, scene->tools.size());
+      balance.serialize(archive, scene->body);
+      writers->serialize(archive, number_of_steps(), time());
+      libraries->serialize(archive);
+      if (const std::string changed = libraries->changed(); !changed.empty())
+        throw Error(changed + "; a run can go on with the same one only");
+    });
+    continued ? checkpoint->load() : checkpoint->remove();
+    writers->open(scene->body);
+    before = number_of_steps();
+  }
+
+  void begin() {
+    begun = true;
+    if (equilibria) return;
+    if (const auto ranks = balance.take_restored_ranks()) repartition({deck, scene, steps, writers}, *ranks);
+    say(communicator, text_of(std::setprecision(4), "critical time step ", steps->critical_time_step(), " s\n"));
+    check_step_at(steps->time(), scene->control, steps->critical_time_step());
+    if (before == 0) check_libraries(scene->body, scene->control, steps->critical_time_step());
+    progress.emplace(communicator, deck.solver.initial_time, time(), deck.solver.final_time);
+  }
+
+  void arrive() {
+    last = ending || is_over();
+    save();
+    if (equilibria) return watch_equilibrium();
+    if (!last && !steps->went_on()) {  // the monitor must first report the point
+      if (const auto ranks = balance.better_ranks(*scene, *steps)) repartition({deck, scene, steps, writers}, *ranks);
+    }
+    steps->advance_velocity(deck.solver.final_time);
+    watch_step();
+  }
+
   void leave(const Pause& pause) { equilibria ? leave_equilibrium() : leave_step(pause); }
-  void save();
-  std::optional<Ledger> record();
-  void watch_step();
-  void watch_equilibrium();
-  template <class Solver>
-  void watch_bodies(Solver& solver);
-  void warn_of_fixed_step();
-  bool is_something_scheduled_next();
-  void leave_step(const Pause& pause);
-  void leave_equilibrium();
-  template <class Action>
-  void guarded(const Action& action);
-  bool steps_follow() { return last && is_over() && equilibria && deck.next_solver; }
-  void hand_over();
-  void report();
-  void finish();
-  void close();
-};
 
-void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Start start) {
-  const bool has_expanded = check_checkpoint(deck, start == Start::anew, communicator, problems);
-  const bool continued = start == Start::continued && checkpoint_exists(deck, communicator);
-  libraries.emplace(deck, communicator);
-  std::optional<StartState> state;
-  if (!continued) state = start_state_of(deck, communicator, problems);
-  PointCloud mesh = checked_mesh(deck, std::move(problems), communicator, in_memory.mesh);
-  read_cracks(deck, communicator);
-  scene = strut::set_up(deck, std::move(mesh), communicator);
-  const std::string started = state ? state->restore(deck, *scene) : "";
-  keep_expansion(has_expanded, scene->body);
-  // Advice is about the state at the start of a run. A continued run that began with Start From is past that state, and
-  // its mesh does not show it.
-  const bool is_past = continued && deck.start_from;
-  const Advice outline = is_past ? Advice{"advice was given at the start\n", scene->warnings} : advice(deck, *scene);
-  say(communicator, describe_scene(*scene, outline) + started);
-  writers.emplace(
-      deck, output_variables_of(deck, scene->body, scene->contact));  // checks all names before a file is replaced
-  history = in_memory.history;
-  writers->history.keep_rows(history);
-  make_solver(continued, state ? &*state : nullptr);
-  open(continued);
-}
-
-// `state`: the state of another run, which the body already has.
-void Run::Parts::make_solver(bool continued, StartState* state) {
-  const deck::Solver& times = deck.solver;
-  if (scene->quasi_static) {
-    equilibria.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), *scene->quasi_static,
-                       times.initial_time, times.final_time, observer(deck, communicator, early_end),
-                       std::move(scene->fracture));
-    if (state) state->begin(*equilibria);
-    return;
+  void save() {
+    const bool wanted = is_over() ? checkpoint->is_scheduled_at_end() : ending || saving;
+    if (wanted || checkpoint->is_scheduled(number_of_steps(), time())) checkpoint->write(number_of_steps(), time());
   }
-  const auto make = [&](auto beginning) {
-    steps.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), scene->control, beginning,
-                  std::move(scene->fracture));
-    // Before it is restored: the impulses of substeps are then restored, too.
-    if (writers->history.has_reactions()) steps->gather_reactions(static_cast<int>(deck.conditions.size()));
-  };
-  if (state && state->goes_on()) {
-    make(CentralDifference::ToBeRestored());
-    state->go_on(*steps);
-  } else if (continued) {
-    make(CentralDifference::ToBeRestored());  // by open(); the mesh may not fit the conditions of the initial time
-  } else {
-    make(times.initial_time);
-    if (state) say(communicator, state->overlaps(steps->contact(), scene->body));
-  }
-}
 
-void Run::Parts::open(bool continued) {
-  monitor.emplace(deck.watch, deck.solver.final_time - deck.solver.initial_time, scene->body, tell);
-  checkpoint.emplace(deck, communicator, [this](Archive& archive) {
-    with_solver([&](auto& solver) { solver.serialize(archive); });
-    serialize_sets(archive, scene->body, names_of_probes(deck));
-    monitor->serialize(archive, scene->tools.size());
-    balance.serialize(archive, scene->body);
-    writers->serialize(archive, number_of_steps(), time());
-    libraries->serialize(archive);
-    if (const std::string changed = libraries->changed(); !changed.empty())
-      throw Error(changed + "; a run can go on with the same one only");
-  });
-  continued ? checkpoint->load() : checkpoint->remove();
-  writers->open(scene->body);
-  before = number_of_steps();
-}
-
-void Run::Parts::begin() {
-  begun = true;
-  if (equilibria) return;
-  if (const auto ranks = balance.take_restored_ranks()) repartition({deck, scene, steps, writers}, *ranks);
-  say(communicator, text_of(std::setprecision(4), "critical time step ", steps->critical_time_step(), " s\n"));
-  check_step_at(steps->time(), scene->control, steps->critical_time_step());
-  if (before == 0) check_libraries(scene->body, scene->control, steps->critical_time_step());
-  progress.emplace(communicator, deck.solver.initial_time, time(), deck.solver.final_time);
-}
-
-void Run::Parts::arrive() {
-  last = ending || is_over();
-  save();
-  if (equilibria) return watch_equilibrium();
-  if (!last && !steps->went_on()) {  // the monitor must first report the point
-    if (const auto ranks = balance.better_ranks(*scene, *steps)) repartition({deck, scene, steps, writers}, *ranks);
-  }
-  steps->advance_velocity(deck.solver.final_time);
-  watch_step();
-}
-
-void Run::Parts::save() {
-  const bool wanted = is_over() ? checkpoint->is_scheduled_at_end() : ending || saving;
-  if (wanted || checkpoint->is_scheduled(number_of_steps(), time())) checkpoint->write(number_of_steps(), time());
-}
-
-std::optional<Ledger> Run::Parts::record() {
-  if (steps) {
+  std::optional<Ledger> record() {
+    if (steps) {
+      return writers->write(
+          scene->body, *steps, [&] { return steps->reactions(); }, last);
+    }
+    const int conditions = writers->history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
     return writers->write(
-        scene->body, *steps, [&] { return steps->reactions(); }, last);
+        scene->body, *equilibria, [&] { return equilibria->reactions(conditions); }, last);
   }
-  const int conditions = writers->history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
-  return writers->write(
-      scene->body, *equilibria, [&] { return equilibria->reactions(conditions); }, last);
-}
 
-void Run::Parts::watch_step() {
-  CentralDifference& solver = *steps;
-  warn_of_fixed_step();
-  monitor->check_step(solver);
-  watch_bodies(solver);
-  writers->history.gather(solver.impulses(), solver.contact(), scene->body.domain);
-  const auto ledger = record();
-  if (ledger || last || monitor->is_energy_check_scheduled(solver.time())) {
-    const Ledger now = ledger ? *ledger : solver.ledger();
-    monitor->check_energy(now, last);
-    monitor->check_resolution(now, last);
-    monitor->check_inverted(now.time);
-    monitor->check_soft_contact(now, solver.contact(), last, Monitor::Steps::of_time);
-    if (last && solver.fracture()) monitor->check_breaks(*solver.fracture(), solver.time());
+  void watch_step() {
+    CentralDifference& solver = *steps;
+    warn_of_fixed_step();
+    monitor->check_step(solver);
+    watch_bodies(solver);
+    writers->history.gather(solver.impulses(), solver.contact(), scene->body.domain);
+    const auto ledger = record();
+    if (ledger || last || monitor->is_energy_check_scheduled(solver.time())) {
+      const Ledger now = ledger ? *ledger : solver.ledger();
+      monitor->check_energy(now, last);
+      monitor->check_resolution(now, last);
+      monitor->check_inverted(now.time);
+      monitor->check_soft_contact(now, solver.contact(), last, Monitor::Steps::of_time);
+      if (last && solver.fracture()) monitor->check_breaks(*solver.fracture(), solver.time());
+    }
+    progress->show(solver.steps(), solver.time(), solver.dt());
   }
-  progress->show(solver.steps(), solver.time(), solver.dt());
-}
 
-void Run::Parts::watch_equilibrium() {
-  const auto recorded = record();
-  const Ledger ledger = recorded ? *recorded : equilibria->ledger();
-  monitor->check_energy(ledger, last);
-  monitor->check_soft_contact(ledger, equilibria->contact(), last, Monitor::Steps::of_load);
-  if (last) monitor->check_plastic_work(ledger, equilibria->missed_plastic_work());
-  monitor->check_failed(time());
-  monitor->check_inverted(time());
-  watch_bodies(*equilibria);
-}
-
-template <class Solver>
-void Run::Parts::watch_bodies(Solver& solver) {
-  monitor->check_interpenetration(solver.time(), solver.contact());
-  monitor->check_undeclared(solver.time(), solver.contact());
-  const auto kind = steps ? Monitor::Steps::of_time : Monitor::Steps::of_load;
-  monitor->check_tools(solver.time(), solver.conditions(), scene->tools, kind);
-}
-
-void Run::Parts::warn_of_fixed_step() {
-  const double limit = steps->critical_time_step();
-  if (warned || !(scene->control.fixed_dt > limit)) return;
-  say(communicator, step_warning(scene->control, limit, time()));
-  warned = true;
-}
-
-// Ranks agree on the tasks of the next time one step ahead, so that all compute energies at times of output or
-// checkpoints.
-bool Run::Parts::is_something_scheduled_next() {
-  using Request = CentralDifference::Request;
-  steps->request(early_end.wanted()                    ? Request::stop
-                 : checkpoint->is_scheduled_by_clock() ? Request::save
-                                                       : Request::none);
-  ending = steps->agreed_request() == Request::stop;
-  saving = steps->agreed_request() == Request::save;
-  const double next = time() + steps->dt();
-  const int step = number_of_steps() + 1;
-  return next >= deck.solver.final_time || ending || saving || writers->is_scheduled(step, next) ||
-         monitor->is_energy_check_scheduled(next) || checkpoint->is_scheduled(step, next);
-}
-
-void Run::Parts::leave_step(const Pause& pause) {
-  const bool with_diagnostics = is_something_scheduled_next();
-  const bool pauses = pause.steps <= 1 || time() + steps->dt() >= pause.time;
-  steps->advance_position(with_diagnostics || pauses);
-}
-
-void Run::Parts::leave_equilibrium() {
-  try {
-    ending = !equilibria->advance();
-  } catch (const Error&) {
-    last = true;
-    quietly([&] { record(); });
-    throw;
+  void watch_equilibrium() {
+    const auto recorded = record();
+    const Ledger ledger = recorded ? *recorded : equilibria->ledger();
+    monitor->check_energy(ledger, last);
+    monitor->check_soft_contact(ledger, equilibria->contact(), last, Monitor::Steps::of_load);
+    if (last) monitor->check_plastic_work(ledger, equilibria->missed_plastic_work());
+    monitor->check_failed(time());
+    monitor->check_inverted(time());
+    watch_bodies(*equilibria);
   }
-  ending = communicator.any(ending || early_end.wanted());
-  saving = ending || communicator.any(checkpoint->is_scheduled_by_clock());
-}
 
-// After an error the run writes a frame, says how to resume, and has ended.
-template <class Action>
-void Run::Parts::guarded(const Action& action) {
-  ended = true;
-  const auto failed = [this](const Error& error) {
-    const std::string text = error.what() + checkpoint->hint();
+  template <class Solver>
+  void watch_bodies(Solver& solver) {
+    monitor->check_interpenetration(solver.time(), solver.contact());
+    monitor->check_undeclared(solver.time(), solver.contact());
+    const auto kind = steps ? Monitor::Steps::of_time : Monitor::Steps::of_load;
+    monitor->check_tools(solver.time(), solver.conditions(), scene->tools, kind);
+  }
+
+  void warn_of_fixed_step() {
+    const double limit = steps->critical_time_step();
+    if (warned || !(scene->control.fixed_dt > limit)) return;
+    say(communicator, step_warning(scene->control, limit, time()));
+    warned = true;
+  }
+
+  // Ranks agree on the tasks of the next time one step ahead, so that all compute energies at times of output or
+  // checkpoints.
+  bool is_something_scheduled_next() {
+    using Request = CentralDifference::Request;
+    steps->request(early_end.wanted()                    ? Request::stop
+                   : checkpoint->is_scheduled_by_clock() ? Request::save
+                                                         : Request::none);
+    ending = steps->agreed_request() == Request::stop;
+    saving = steps->agreed_request() == Request::save;
+    const double next = time() + steps->dt();
+    const int step = number_of_steps() + 1;
+    return next >= deck.solver.final_time || ending || saving || writers->is_scheduled(step, next) ||
+           monitor->is_energy_check_scheduled(next) || checkpoint->is_scheduled(step, next);
+  }
+
+  void leave_step(const Pause& pause) {
+    const bool with_diagnostics = is_something_scheduled_next();
+    const bool pauses = pause.steps <= 1 || time() + steps->dt() >= pause.time;
+    steps->advance_position(with_diagnostics || pauses);
+  }
+
+  void leave_equilibrium() {
+    try {
+      ending = !equilibria->advance();
+    } catch (const Error&) {
+      last = true;
+      quietly([&] { record(); });
+      throw;
+    }
+    ending = communicator.any(ending || early_end.wanted());
+    saving = ending || communicator.any(checkpoint->is_scheduled_by_clock());
+  }
+
+  // After an error the run writes a frame, says how to resume, and has ended.
+  template <class Action>
+  void guarded(const Action& action) {
+    ended = true;
+    const auto failed = [this](const Error& error) {
+      const std::string text = error.what() + checkpoint->hint();
+      close();
+      return Error(text);
+    };
+    try {
+      action();
+    } catch (const LostState& error) {
+      throw failed(error);
+    } catch (const Error& error) {
+      leave_frame(*writers, time(), scene->body);
+      throw failed(error);
+    }
+    ended = last;
+  }
+
+  bool steps_follow() { return last && is_over() && equilibria && deck.next_solver; }
+
+  // Starts the explicit steps after equilibria (Solver 2): the same body and files, no checkpoints.
+  void hand_over() {
+    report();
+    const Ledger before = equilibria->ledger();
+    deck = set_up_next(deck, equilibria->conditions(), equilibria->take_contact(), equilibria->take_fracture(), *scene);
+    say(communicator,
+        text_of("\nSolver 2: explicit steps from t = ", deck.solver.initial_time, " s\n", scene->warnings));
+    Snapshot snapshot;
+    Archive saved = Archive::saving_to(snapshot);
+    writers->serialize(saved, number_of_steps(), time());
     close();
-    return Error(text);
-  };
-  try {
-    action();
-  } catch (const LostState& error) {
-    throw failed(error);
-  } catch (const Error& error) {
-    leave_frame(*writers, time(), scene->body);
-    throw failed(error);
+    writers.emplace(deck, output_variables_of(deck, scene->body, scene->contact));
+    writers->history.keep_rows(history);
+    Archive restored = Archive::loading_from(snapshot);
+    writers->serialize(restored, number_of_steps(), time());
+    equilibria.reset();
+    balance = Balance(deck);
+    make_solver(false);
+    steps->go_on_from(before);
+    open(false);
+    begun = last = ending = saving = false;
   }
-  ended = last;
-}
 
-// Closes the files, for other runs of this process; the fields stay.
-void Run::Parts::close() {
-  progress.reset();
-  checkpoint.reset();
-  writers.reset();
-}
+  void report() {
+    const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+    say(communicator,
+        with_solver([&](auto& solver) { return closing_report(*scene, solver, solver.ledger(), seconds, before); }));
+  }
 
-// Starts the explicit steps after equilibria (Solver 2): the same body and files, no checkpoints.
-void Run::Parts::hand_over() {
-  report();
-  const Ledger before = equilibria->ledger();
-  deck = set_up_next(deck, equilibria->conditions(), equilibria->take_contact(), equilibria->take_fracture(), *scene);
-  say(communicator, text_of("\nSolver 2: explicit steps from t = ", deck.solver.initial_time, " s\n", scene->warnings));
-  Snapshot snapshot;
-  Archive saved = Archive::saving_to(snapshot);
-  writers->serialize(saved, number_of_steps(), time());
-  close();
-  writers.emplace(deck, output_variables_of(deck, scene->body, scene->contact));
-  writers->history.keep_rows(history);
-  Archive restored = Archive::loading_from(snapshot);
-  writers->serialize(restored, number_of_steps(), time());
-  equilibria.reset();
-  balance = Balance(deck);
-  make_solver(false);
-  steps->go_on_from(before);
-  open(false);
-  begun = last = ending = saving = false;
-}
+  void finish() {
+    if (progress) progress->finish();
+    if (is_over()) checkpoint->close();
+    report();
+    say(communicator, is_over() ? checkpoint->kept() : early_end.reason(communicator) + checkpoint->hint() + "\n");
+    close();
+  }
 
-void Run::Parts::report() {
-  const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
-  say(communicator,
-      with_solver([&](auto& solver) { return closing_report(*scene, solver, solver.ledger(), seconds, before); }));
-}
-
-void Run::Parts::finish() {
-  if (progress) progress->finish();
-  if (is_over()) checkpoint->close();
-  report();
-  say(communicator, is_over() ? checkpoint->kept() : early_end.reason(communicator) + checkpoint->hint() + "\n");
-  close();
-}
+  // Closes the files, for other runs of this process; the fields stay.
+  void close() {
+    progress.reset();
+    checkpoint.reset();
+    writers.reset();
+  }
+};
 
 Run::Run(deck::Deck deck, deck::Problems problems, const Communicator& communicator, Start start,
          const InMemory& in_memory)

@@ -179,16 +179,17 @@ bool is_quadratic_body(const deck::Deck& deck, const PointCloud& cloud, const st
 }  // namespace
 
 std::vector<Mirror> symmetry_planes(const deck::Deck& deck) {
+  constexpr int first = 2 * lower_side;  // bit after those of periodic sides
   std::vector<Mirror> planes;
   for (int c = 0; c < static_cast<int>(deck.conditions.size()); ++c) {
     const auto* plane = std::get_if<SymmetryPlane>(&deck.conditions[c].kind);
     if (!plane || deck.conditions[c].node_set == "all") continue;
     planes.push_back(
-        {.on = plane->point, .normal = plane->normal, .number = c, .bit = static_cast<int>(planes.size())});
+        {.on = plane->point, .normal = plane->normal, .number = c, .bit = first + static_cast<int>(planes.size())});
   }
-  if (planes.size() > static_cast<std::size_t>(most_planes)) {
+  if (planes.size() > static_cast<std::size_t>(most_planes - first)) {
     throw Error("Boundary Conditions: " + std::to_string(planes.size()) + " symmetry planes of node sets; expected " +
-                std::to_string(most_planes) + " at most");
+                std::to_string(most_planes - first) + " at most");
   }
   return planes;
 }
@@ -346,7 +347,7 @@ void take_off_cuts(const deck::Deck& deck, const Communicator& communicator, Poi
     if (!cuts(faces, communicator)) continue;
     std::map<std::array<std::int64_t, 4>, double> behind;
     for (const CellFace& face : of_all_ranks(faces_on(sides[s ^ 1], bonds, cloud), communicator))
-      behind[face.nodes] = face.filled;
+      behind[face.nodes] += face.filled;  // parts of cells may have all nodes in common
     take_off(sides[s], faces, &behind, cloud);
   }
 }

@@ -68,6 +68,7 @@ std::int64_t number_at(const Vector& X, double period, std::int64_t seam) {
     hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
     hash ^= hash >> 31;
   }
+  static_assert(of_place == std::int64_t{1} << (Images::bits - 1));
   return (static_cast<std::int64_t>(hash) & (of_place - 1)) | of_place;
 }
 

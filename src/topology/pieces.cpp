@@ -63,12 +63,4 @@ std::pair<std::vector<int>, int> numbered_pieces(const Domain& domain) {
   return {std::move(numbers), static_cast<int>(first.size())};
 }
 
-// Each piece is counted by the rank that owns its first point.
-std::int64_t count_pieces(const Domain& domain) {
-  const std::vector<std::int64_t> ids = piece_ids(domain);
-  std::int64_t first = 0;
-  for (int i = 0; i < domain.owned; ++i) first += ids[i] == domain.id(i) ? 1 : 0;
-  return domain.communicator.sum(first);
-}
-
 }  // namespace strut

@@ -18,7 +18,4 @@ std::vector<std::int64_t> piece_ids(const Domain& domain, const std::function<bo
 // Collective. For each owned point, the number of its piece, in the order of their least ids; and the number of pieces.
 std::pair<std::vector<int>, int> numbered_pieces(const Domain& domain);
 
-// Collective. The number of pieces.
-std::int64_t count_pieces(const Domain& domain);
-
 }  // namespace strut

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "materials/deshpande_fleck.hpp"
 #include "materials/flow_stress.hpp"
+#include "materials/polymer_foam.hpp"
 #include "materials/thermal_flow.hpp"
 
 namespace strut::testing {
@@ -73,6 +75,33 @@ inline double printed_flow_stress(const materials::SoftenedFlow& f, double strai
   const auto& s = std::get<materials::JohnsonCookSoftening>(f.softening);
   const double relative = std::clamp((T - s.reference) / (s.melting - s.reference), 0.0, 1.0);
   return printed_flow_stress(f.cold, strain, rate) * (1 - std::pow(relative, s.exponent));
+}
+
+// ---- The stress that yields at the flow stress: von Mises', or by the yield surface of a foam -----------------------
+
+template <class L>
+double printed_equivalent_stress(const L&, const Symmetric& stress, const typename L::State&) {
+  return von_mises(stress);
+}
+
+// Of Deshpande & Fleck (2000).
+inline double printed_equivalent_stress(const materials::DeshpandeFleck& law, const Symmetric& stress,
+                                        const materials::DeshpandeFleck::State&) {
+  return std::hypot(von_mises(stress), law.alpha * trace(stress) / 3) / std::hypot(1, law.alpha / 3);
+}
+
+// An ellipse in Kirchhoff stress, (q/(αA))² + ((p − p₀)/A)² = 1, from −p_t to p_c: the uniaxial compression τ_y/J times
+// the factor by which it must grow from zero stress to go through the stress.
+inline double printed_equivalent_stress(const materials::PolymerFoam& law, const Symmetric& stress,
+                                        const materials::PolymerFoam::State& state) {
+  const double J = state.relative_density > 0 ? law.initial_density / state.relative_density : 1;
+  const auto [uniaxial, compression] = law.yield_stresses(state.compaction);
+  const double tension = law.tension_ratio * compression, third = uniaxial / 3;
+  const double center = (compression - tension) / 2, axis = (compression + tension) / 2;
+  const double alpha = uniaxial / std::sqrt((compression - third) * (tension + third));
+  const double q = J * von_mises(stress) / (alpha * axis), p = -J * trace(stress) / 3 / axis, p0 = center / axis;
+  const double square = q * q + p * p;
+  return square > 0 ? uniaxial / J * square / (p * p0 + std::sqrt(p * p * p0 * p0 + square * (1 - p0 * p0))) : 0;
 }
 
 }  // namespace strut::testing

@@ -24,7 +24,7 @@ struct Anchor {
   std::vector<Function> values_at_points() const { return {}; }
   Anchor on(std::vector<int> all, int, const Body&) const { return {std::move(all), stiffness}; }
 
-  Anchor in_substeps(const MovingPoints& moving) const { return {moving.among(points), stiffness}; }
+  Anchor on_some(const MovingPoints& some) const { return {some.among(points), stiffness}; }
   void add_forces(double, double part, Body& body) const {
     for (const int i : points) body.force_density[i] -= part * stiffness * body.displacement(i);
   }

@@ -54,7 +54,6 @@ struct NeoHookean {
 
   double elastic_energy(const Symmetric&, const State& state) const { return state.stored_energy; }
   double dissipation(const State&) const { return 0; }
-  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
 };
 

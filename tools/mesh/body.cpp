@@ -33,9 +33,12 @@ double exact_volume(const Body& body) {
 
 double height(const Body& body) { return body.shape == Body::Shape::box ? body.size.z() : body.length; }
 
+// True if it consists of struts or sheets in a box.
+bool has_members(const Body& body) { return body.shape == Body::Shape::foam || body.shape == Body::Shape::lattice; }
+
 void check_cells(const Body& body, const Vector& extent) {
   const int factor = std::max(1, body.cells);
-  const bool is_sparse = body.cells > 0 && (body.shape == Body::Shape::foam || body.shape == Body::Shape::lattice);
+  const bool is_sparse = body.cells > 0 && has_members(body);
   const double most = is_sparse ? most_sparse_voxels : most_cells;
   const Vector cells = extent / body.spacing;
   if (cells.maxCoeff() * factor <= most && (cells.cwiseMax(1) * factor).prod() <= most) return;
@@ -196,13 +199,9 @@ io::Mesh read_body(const Body& body, std::string& summary) {
 
 io::Mesh shaped(const Body& body, std::string& summary) {
   if (body.shape == Body::Shape::file) return read_body(body, summary);
-  if (body.shape == Body::Shape::foam) {
+  if (has_members(body)) {
     check_cells(body, body.size);
-    return foam_mesh(body, summary);
-  }
-  if (body.shape == Body::Shape::lattice) {
-    check_cells(body, body.size);
-    return lattice_mesh(body, summary);
+    return body.shape == Body::Shape::foam ? foam_mesh(body, summary) : lattice_mesh(body, summary);
   }
   return body.cells > 0 ? gathered_body(body, summary) : extruded(body, summary);
 }

@@ -124,19 +124,14 @@ std::string summary_of_more(const Body& body, const Skeleton& skeleton) {
   return text;
 }
 
-io::Mesh mesh_of_cells(const Body& body, const Struts& struts, const std::string& members, const VoxelGrid& grid,
-                       std::string& summary) {
+io::Mesh mesh_of_members(const Body& body, const Struts& struts, const std::string& members, const VoxelGrid& grid,
+                         std::string& summary) {
+  if (body.cells == 0) return voxel_mesh(struts.voxels, grid);
   const Gathering gathering{body.cells, body.smallest_cell};
   const Cells cells = gathered(struts.voxels, struts.fills, grid, gathering);
   summary += summary_of(cells, gathering);
   if (struts.radius > 0) summary += resolution_of(members, 2 * struts.radius / std::cbrt(cells.grid.spacing().prod()));
   return cell_mesh(cells);
-}
-
-io::Mesh mesh_of_members(const Body& body, Struts struts, const std::string& members, const VoxelGrid& grid,
-                         std::string& summary) {
-  if (body.cells > 0) return mesh_of_cells(body, struts, members, grid, summary);
-  return voxel_mesh(struts.voxels, grid);
 }
 
 VoxelGrid grid_of_body(const Body& body) {

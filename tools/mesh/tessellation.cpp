@@ -159,7 +159,7 @@ void add_edges(const Cell& cell, int number, std::vector<Edge>& edges) {
   }
 }
 
-// Seeds with the spheres whose radical planes are the faces of cells; without `radii`, their bisecting planes.
+// Seeds with the spheres whose radical planes are the faces of cells; of radii of 0 these are the bisecting planes.
 struct Spheres {
   std::vector<Vector> places;
   std::vector<double> radii;
@@ -169,31 +169,13 @@ struct Spheres {
   // Calls visit(number, cell of voro++ around its place, place).
   template <class Visit>
   void for_each_cell(const Visit& visit) const {
-    if (radii.empty()) {
-      voro::container container = empty<voro::container>();
-      for (std::size_t n = 0; n < places.size(); ++n) {
-        container.put(static_cast<int>(n), places[n][0], places[n][1], places[n][2]);
-      }
-      over(container, visit);
-    } else {
-      voro::container_poly container = empty<voro::container_poly>();
-      for (std::size_t n = 0; n < places.size(); ++n) {
-        container.put(static_cast<int>(n), places[n][0], places[n][1], places[n][2], radii[n]);
-      }
-      over(container, visit);
-    }
-  }
-
- private:
-  template <class Container>
-  Container empty() const {
     const Triple bins =
         ((upper - lower).array() * 0.375).ceil().cast<int>();  // about 5 seeds each, as voro++ recommends
-    return Container(lower[0], upper[0], lower[1], upper[1], lower[2], upper[2], bins[0], bins[1], bins[2], periodic,
-                     periodic, periodic, 8);
-  }
-  template <class Container, class Visit>
-  static void over(Container& container, const Visit& visit) {
+    voro::container_poly container(lower[0], upper[0], lower[1], upper[1], lower[2], upper[2], bins[0], bins[1],
+                                   bins[2], periodic, periodic, periodic, 8);
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      container.put(static_cast<int>(n), places[n][0], places[n][1], places[n][2], radii[n]);
+    }
     voro::c_loop_all loop(container);
     voro::voronoicell_neighbor cell;
     if (loop.start()) do {
@@ -215,21 +197,23 @@ void relax(Spheres& spheres) {
   spheres.places = std::move(moved);
 }
 
-std::vector<Edge> edges_of(const Spheres& spheres, const Vector& lower, const Vector& upper, double& scatter) {
-  std::vector<Edge> edges;
+// Edges, and the cells of the box between two corners.
+Skeleton skeleton_of(const Spheres& spheres, const Vector& lower, const Vector& upper) {
+  Skeleton skeleton;
   Cell cell;
-  double cells = 0, sum = 0, squares = 0;
+  double sum = 0, squares = 0;
   spheres.for_each_cell([&](int number, voro::voronoicell_neighbor& raw, const Vector& place) {
     raw.vertices(place[0], place[1], place[2], cell.vertices);
     raw.face_vertices(cell.faces);
     raw.neighbors(cell.neighbors);
-    add_edges(cell, number, edges);
+    add_edges(cell, number, skeleton.edges);
     if ((place - lower).minCoeff() < 0 || (upper - place).minCoeff() < 0) return;
     const double volume = raw.volume();
-    ++cells, sum += volume, squares += volume * volume;
+    ++skeleton.cells, sum += volume, squares += volume * volume;
   });
-  scatter = cells > 0 ? std::sqrt(std::max(0.0, cells * squares / (sum * sum) - 1)) : 0;
-  return edges;
+  const auto cells = static_cast<double>(skeleton.cells);
+  skeleton.scatter = cells > 0 ? std::sqrt(std::max(0.0, cells * squares / (sum * sum) - 1)) : 0;
+  return skeleton;
 }
 
 // The edges of a periodic box, and those around it.
@@ -273,17 +257,13 @@ Skeleton foam_skeleton(const Vector& size, const FoamSeeds& wanted) {
   const Vector half = size.cwiseQuotient(2 * unit);
   std::mt19937_64 random(wanted.seed);
   const Seeds seeds(half, repeats, wanted.irregularity, random);
-  Spheres spheres{seeds.positions(), {}, seeds.lower(), seeds.upper(), wanted.periodic};
-  if (wanted.sizes > 0) spheres.radii = radii_of(spheres.places.size(), nearest / 2, wanted.sizes, random);
+  std::vector<double> radii(seeds.positions().size(), 0);
+  if (wanted.sizes > 0) radii = radii_of(radii.size(), nearest / 2, wanted.sizes, random);
+  Spheres spheres{seeds.positions(), radii, seeds.lower(), seeds.upper(), wanted.periodic};
   for (int n = 0; n < wanted.relax; ++n) relax(spheres);
   const Vector origin = wanted.periodic ? Vector(Vector::Zero()) : Vector(-half);  // of the box
-  Skeleton skeleton;
+  Skeleton skeleton = skeleton_of(spheres, origin, origin + 2 * half);
   skeleton.stretch = unit / std::cbrt(unit.prod());
-  for (const Vector& x : spheres.places) {
-    const bool inside = ((x - origin).array() >= 0).all() && ((x - origin - 2 * half).array() <= 0).all();
-    skeleton.cells += inside || wanted.periodic ? 1 : 0;
-  }
-  skeleton.edges = edges_of(spheres, origin, origin + 2 * half, skeleton.scatter);
   const Vector middle = wanted.periodic ? Vector(Vector::Zero()) : Vector(size / 2);  // where the seeds' origin goes
   for (Edge& edge : skeleton.edges) {
     edge.a = unit.cwiseProduct(edge.a) + middle;

@@ -220,7 +220,7 @@ class PythonRun {
 
 // A field of all points in the order of the mesh, gathered on rank 0; NaN for points that were dropped.
 py::object whole(PythonRun& run, const std::string& name) {
-  const Observable one = chosen(observables(run.body()), {name}, "fields").front();
+  const Observable one = chosen(observables(run.body()), name, "fields");
   const PointCloud& cloud = run.body().domain.cloud;
   std::vector<double> mine;
   one.fill(run.body(), mine);
@@ -243,7 +243,7 @@ py::object whole(PythonRun& run, const std::string& name) {
 py::object field(const py::object& owner, const std::string& name) {
   auto& run = owner.cast<PythonRun&>();
   if (py::object view = view_of(run.body(), name, owner); !view.is_none()) return view;
-  const Observable one = chosen(observables(run.body()), {name}, "fields").front();
+  const Observable one = chosen(observables(run.body()), name, "fields");
   std::vector<double> values;
   one.fill(run.body(), values);
   return read_only(array_of(std::move(values), one.components));

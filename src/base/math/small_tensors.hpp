@@ -117,20 +117,4 @@ inline Tensor at(const Tensor3<Lanes>& t, int lane) {
 }
 inline Vector at(const Vector3<Lanes>& v, int lane) { return {v.c[0][lane], v.c[1][lane], v.c[2][lane]}; }
 
-inline Tensor3<double> from_eigen(const Tensor& t) {
-  Tensor3<double> r;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) r.c[i][j] = t(i, j);
-  }
-  return r;
-}
-
-inline Tensor to_eigen(const Tensor3<double>& t) {
-  Tensor r;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) r(i, j) = t.c[i][j];
-  }
-  return r;
-}
-
 }  // namespace strut::small

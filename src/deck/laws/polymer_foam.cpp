@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <vector>
 
 #include "base/numbers.hpp"
+#include "base/text.hpp"
 #include "deck/laws/constants.hpp"
 #include "deck/laws/laws.hpp"
 #include "deck/laws/tables.hpp"
@@ -50,13 +50,6 @@ std::optional<materials::TableHardening> table(const Values& material, const std
   return {};
 }
 
-// Formats a computed number.
-std::string six_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
 // The compactions ε_v between which both curves are linear.
 std::vector<double> knots(const materials::PolymerFoam& law) {
   std::vector<double> all{0};
@@ -88,15 +81,15 @@ void check_ellipse(const materials::PolymerFoam& law, const std::string& path, P
   const double flat =
       first_without(places, [&](double v) { return 3 * stresses(v).hydrostatic - stresses(v).uniaxial; });
   if (soft >= 0) {
-    problems.add(path, "the uniaxial yield stress falls to 0 at the axial plastic strain " +
-                           six_digits(soft / (1 - 2 * law.plastic_poisson)) + "; expected more than 0, in Pa");
+    problems.add(path, text_of("the uniaxial yield stress falls to 0 at the axial plastic strain ",
+                               soft / (1 - 2 * law.plastic_poisson), "; expected more than 0, in Pa"));
   }
   if (flat >= 0) {
     const auto at = stresses(flat);
-    problems.add(path, "at the volumetric plastic strain " + six_digits(flat) + " the uniaxial yield stress, " +
-                           six_digits(at.uniaxial) + " Pa, reaches three times the hydrostatic one, " +
-                           six_digits(at.hydrostatic) +
-                           " Pa, where no ellipse goes through both; expected less than that, in Pa, at every strain");
+    problems.add(path, text_of("at the volumetric plastic strain ", flat, " the uniaxial yield stress, ", at.uniaxial,
+                               " Pa, reaches three times the hydrostatic one, ", at.hydrostatic,
+                               " Pa, where no ellipse goes through both; expected less than that, in Pa, at every "
+                               "strain"));
   }
 }
 

@@ -25,8 +25,9 @@ Section along_axes(const std::string& type, const std::string& unit, const std::
   return {.name = type, .meaning = meaning, .keys = {components, of_unit}};
 }
 
-ConditionPrototype read_initial_velocity(const Values& values, Problems&) {
-  return InitialVelocity{.components = values[components], .value = values[value]};
+template <class Type>
+ConditionPrototype read_along_axes(const Values& values, Problems&) {
+  return Type{.components = values[components], .value = values[value]};
 }
 
 ConditionPrototype read_temperature(const Values& values, Problems&) {
@@ -43,17 +44,9 @@ Section prescribed_temperature() {
           .keys = {of_unit}};
 }
 
-ConditionPrototype read_initial_displacement(const Values& values, Problems&) {
-  return InitialDisplacement{.components = values[components], .value = values[value]};
-}
-
 template <bool is_velocity>
 ConditionPrototype read_prescribed_motion(const Values& values, Problems&) {
   return PrescribedMotion{.components = values[components], .value = values[value], .is_velocity = is_velocity};
-}
-
-ConditionPrototype read_body_force(const Values& values, Problems&) {
-  return BodyForce{.components = values[components], .value = values[value]};
 }
 
 const VectorKey end_normal({.name = "Normal", .meaning = "Normal of the surface, of any length."});
@@ -106,29 +99,32 @@ ConditionPrototype read_periodic_sides(const Values& values, Problems& problems)
   return sides;
 }
 
-const std::vector<Case<ConditionPrototype, Problems&>>& entries() {
-  static const std::vector<Case<ConditionPrototype, Problems&>> all = {
-      {along_axes("Initial Velocity", "m/s", "Velocity at the initial time."), read_initial_velocity},
+std::vector<Case<ConditionPrototype, Problems&>> all_entries() {
+  std::vector<Case<ConditionPrototype, Problems&>> all = {
+      {along_axes("Initial Velocity", "m/s", "Velocity at the initial time."), read_along_axes<InitialVelocity>},
       {along_axes(
            "Initial Displacement", "m",
            "Displacement at the initial time where nothing holds the points, which begin strained. Only in bodies "
            "of 'Elastic', whose forces follow from positions alone."),
-       read_initial_displacement},
+       read_along_axes<InitialDisplacement>},
       {along_axes("Prescribed Displacement", "m",
                   "Displacement at every time; with Verlet it must be 0 at the initial time."),
        read_prescribed_motion<false>},
       {along_axes("Prescribed Velocity", "m/s",
                   "Velocity at every time; with QuasiStatic, its integral over each load step."),
        read_prescribed_motion<true>},
-      {along_axes("Body Force", "N/m³", "Force per reference volume. Several at a point add up."), read_body_force},
+      {along_axes("Body Force", "N/m³", "Force per reference volume. Several at a point add up."),
+       read_along_axes<BodyForce>},
       {prescribed_temperature(), read_temperature},
-      {symmetry_plane_section(), read_symmetry_plane},
-      {rigid_plane_section(), read_rigid_plane},
-      {rigid_cylinder_section(), read_rigid_cylinder},
-      {rigid_box_section(), read_rigid_box},
-      {non_reflecting_end(), read_non_reflecting_end},
-      {periodic_sides(), read_periodic_sides},
   };
+  for (auto& one : planes_and_tools()) all.push_back(std::move(one));
+  all.push_back({non_reflecting_end(), read_non_reflecting_end});
+  all.push_back({periodic_sides(), read_periodic_sides});
+  return all;
+}
+
+const std::vector<Case<ConditionPrototype, Problems&>>& entries() {
+  static const auto all = all_entries();
   return all;
 }
 

@@ -2,7 +2,6 @@
 
 #include "base/numbers.hpp"
 #include "deck/problems.hpp"
-#include "deck/values.hpp"
 
 namespace strut::deck {
 
@@ -110,48 +109,38 @@ void check_corners(const Values& values, Problems& problems) {
 
 }  // namespace
 
-Section symmetry_plane_section() {
-  return plane(
-      "Symmetry Plane",
-      "A body that ends at the plane continues behind it as its mirror image. The node set has all points at the plane "
-      "and no others: elements with a face on it, or nodes. Points of `all` or of a block keep their distance to the "
-      "plane (plane strain); so do those of any other set, with a warning. Contact does not see mirror images.");
-}
-
-ConditionPrototype read_symmetry_plane(const Values& values, Problems& problems) {
-  return SymmetryPlane{.normal = read_direction(values, normal, problems), .point = values[point_on_plane]};
-}
-
-Section rigid_plane_section() {
-  return tool(plane("Rigid Plane", "Wall: bodies stay on the side that the normal points to."));
-}
-
-ConditionPrototype read_rigid_plane(const Values& values, Problems& problems) {
-  return read_tool(HalfSpace{values[point_on_plane], read_direction(values, normal, problems)}, values, problems);
-}
-
-Section rigid_cylinder_section() {
-  return tool({.name = "Rigid Cylinder",
-               .meaning = "Cylinder without ends: bodies stay outside.",
-               .keys = {point_on_axis, axis, radius}});
-}
-
-ConditionPrototype read_rigid_cylinder(const Values& values, Problems& problems) {
-  const Cylinder roll{values[point_on_axis], read_direction(values, axis, problems), values[radius]};
-  return read_tool(roll, values, problems);
-}
-
-Section rigid_box_section() {
-  return tool({.name = "Rigid Box",
-               .meaning = "Box with sharp edges along the axes: bodies stay outside. One as long as the period of "
-                          "Periodic Sides has no ends.",
-               .keys = {lower, upper}});
-}
-
-ConditionPrototype read_rigid_box(const Values& values, Problems& problems) {
-  const RigidTool block = read_tool(Box{values[lower], values[upper]}, values, problems);
-  check_corners(values, problems);
-  return block;
+std::vector<Case<ConditionPrototype, Problems&>> planes_and_tools() {
+  return {
+      {plane(
+           "Symmetry Plane",
+           "A body that ends at the plane continues behind it as its mirror image. The node set has all points at the "
+           "plane and no others: elements with a face on it, or nodes. Points of `all` or of a block keep their "
+           "distance to the plane (plane strain); so do those of any other set, with a warning. Contact does not see "
+           "mirror images."),
+       [](const Values& values, Problems& problems) -> ConditionPrototype {
+         return SymmetryPlane{.normal = read_direction(values, normal, problems), .point = values[point_on_plane]};
+       }},
+      {tool(plane("Rigid Plane", "Wall: bodies stay on the side that the normal points to.")),
+       [](const Values& values, Problems& problems) -> ConditionPrototype {
+         const HalfSpace half{values[point_on_plane], read_direction(values, normal, problems)};
+         return read_tool(half, values, problems);
+       }},
+      {tool({.name = "Rigid Cylinder",
+             .meaning = "Cylinder without ends: bodies stay outside.",
+             .keys = {point_on_axis, axis, radius}}),
+       [](const Values& values, Problems& problems) -> ConditionPrototype {
+         const Cylinder roll{values[point_on_axis], read_direction(values, axis, problems), values[radius]};
+         return read_tool(roll, values, problems);
+       }},
+      {tool({.name = "Rigid Box",
+             .meaning = "Box with sharp edges along the axes: bodies stay outside. One as long as the period of "
+                        "Periodic Sides has no ends.",
+             .keys = {lower, upper}}),
+       [](const Values& values, Problems& problems) -> ConditionPrototype {
+         const RigidTool block = read_tool(Box{values[lower], values[upper]}, values, problems);
+         check_corners(values, problems);
+         return block;
+       }}};
 }
 
 // Scaled by the largest component, because the squares of 1e-300 and 1e300 underflow and overflow.

@@ -2,22 +2,12 @@
 #pragma once
 
 #include "conditions/prototype.hpp"
-#include "deck/forward.hpp"
-#include "deck/keys.hpp"
+#include "deck/problems.hpp"
+#include "deck/values.hpp"
 
 namespace strut::deck {
 
-Section symmetry_plane_section();
-ConditionPrototype read_symmetry_plane(const Values& values, Problems& problems);
-
-Section rigid_plane_section();
-ConditionPrototype read_rigid_plane(const Values& values, Problems& problems);
-
-Section rigid_cylinder_section();
-ConditionPrototype read_rigid_cylinder(const Values& values, Problems& problems);
-
-Section rigid_box_section();
-ConditionPrototype read_rigid_box(const Values& values, Problems& problems);
+std::vector<Case<ConditionPrototype, Problems&>> planes_and_tools();
 
 Vector unit_vector(const Vector& direction);  // for any length; zero for zero
 

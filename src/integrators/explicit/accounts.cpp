@@ -31,9 +31,7 @@ void EnergyAccount::begin_impulse() {
 
 Ledger EnergyAccount::ledger(const Body& body, const Conditions& conditions, const contact::Contact& contact,
                              const MidSteps& steps, double time, double dt) {
-  const Communicator& ranks = body.domain.communicator;
-  const std::string no_number = conditions.first_not_finite();
-  raise_together(ranks, ranks.first_rank(!no_number.empty()) == ranks.rank() ? no_number : "");
+  raise_first(body.domain.communicator, conditions.first_not_finite());
   Ledger now{.time = time, .dt = dt};
   const Work done = done_ + impulse_.before;
   double sums[8] = {0, done.contact - contact.energy(), done.external, done.tools, 0, 0, 0, 0};

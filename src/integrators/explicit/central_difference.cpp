@@ -112,8 +112,10 @@ void CentralDifference::advance_position(bool with_diagnostics) {
   std::vector<std::uint8_t> apart;  // points that the substeps will move otherwise than the rest of their bodies
   if (substeps_of_rigid) {
     apart = met_points(body_, conditions_, body_.velocity, time_, dt());
-    if (apart.empty()) apart = moved_apart_;
-    for (std::size_t i = 0; i < moved_apart_.size(); ++i) apart[i] |= moved_apart_[i];
+    const std::vector<std::uint8_t> moved =
+        moved_within(changing_on_parts_, body_, time_, dt(), 1 << multi_stepping_.level_count());
+    apart.resize(body_.owned(), 0);
+    for (std::size_t i = 0; i < moved.size(); ++i) apart[i] |= moved[i];
   }
   update_rigid_motion(body_, apart);
   if (fracture_) {
@@ -289,8 +291,7 @@ void CentralDifference::reassign_levels(StepReport& report, const std::vector<st
 // Collective. `before`: levels of the motion in the last step, if they were others.
 void CentralDifference::restrict_conditions(const std::optional<std::vector<std::uint8_t>>& before) {
   loads_.take_levels(body_, before, multi_stepping_.motion_levels(), multi_stepping_.level_count());
-  moved_apart_.clear();
-  if (multi_stepping_.level_count() > 0) moved_apart_ = moved_apart_in_time(conditions_, body_);
+  changing_on_parts_ = multi_stepping_.level_count() > 0 ? changing_on_parts(conditions_, body_) : Conditions();
   conditions_of_level_.clear();
   for (int m = 1; m <= multi_stepping_.level_count(); ++m) {
     conditions_of_level_.push_back(in_substeps(conditions_, {multi_stepping_.motion_levels(), m}));
@@ -338,8 +339,7 @@ std::int64_t CentralDifference::new_breaks() {
 // Collective. Throws Error unless the run may continue with this report; else sets the warning.
 void CentralDifference::explain(const StepReport& report, const std::string& no_number) {
   const Communicator& ranks = body_.domain.communicator;
-  const int teller = ranks.first_rank(!no_number.empty());
-  if (teller >= 0) raise_together(ranks, teller == ranks.rank() ? no_number : "");
+  raise_first(ranks, no_number);
   if (report.failure)
     warning_ = text_of("at t = ", time_, " s, step ", steps(), " of ", dt(), " s: ", describe(*report.failure, body_));
   if (!went_on_) raise_together(ranks, warning_);

@@ -108,7 +108,7 @@ class CentralDifference {
   MultiTimeStepping multi_stepping_;
   std::vector<Conditions> conditions_of_level_;  // for the points that move at times between whole steps
   Loads loads_;
-  std::vector<std::uint8_t> moved_apart_;  // marks of moved_apart_in_time()
+  Conditions changing_on_parts_;  // if there are substeps
   EnergyAccount energies_;
   ReactionAccount reactions_;
   MidSteps mid_steps_;                 // around time()

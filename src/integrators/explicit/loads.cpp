@@ -8,21 +8,20 @@
 
 namespace strut {
 
-Loads::Loads(const Conditions& conditions)
-    : all_(loads_of(conditions)),
-      even_{0, 0, all_},
-      any_(all_.count() > 0),
-      change_(depend_on_time(conditions, Stage::forces)) {}
+Loads::Loads(const Conditions& conditions) : change_(depend_on_time(conditions, Stage::forces)) {
+  conditions.visit([this](const AddsForces auto& one) { conditions_.add(one); });
+  even_ = {0, 0, conditions_};
+}
 
 void Loads::take_levels(const Body& body, const std::optional<Levels>& before, const Levels& after, int highest) {
-  if (!any_) return;
+  if (conditions_.count() == 0) return;
   highest_ = highest;
   groups_.clear(), now_.clear();
   before_ = before;
-  even_.loads = all_;
+  even_.loads = conditions_;
   if (highest == 0 && !before) return;
   Conditions parts;
-  std::tie(even_.loads, parts) = on_wholes_and_parts(all_, body);
+  std::tie(even_.loads, parts) = loads_on_wholes_and_parts(conditions_, body);
   const auto level = [](const Levels& levels, int i) { return levels.empty() ? 0 : levels[i]; };
   std::map<std::pair<int, int>, Levels> members;  // marks, by the levels before and after
   for (int i = 0; i < body.owned(); ++i) {
@@ -31,7 +30,7 @@ void Loads::take_levels(const Body& body, const std::optional<Levels>& before, c
     marks[i] = 1;
   }
   for (const auto& [levels, marks] : members)
-    groups_.push_back({levels.first, levels.second, in_substeps(parts, {marks, 1})});
+    groups_.push_back({levels.first, levels.second, loads_on(parts, {marks, 1})});
 }
 
 Loads::Impulse Loads::impulse(const Group& group, const Moment& moment) const {

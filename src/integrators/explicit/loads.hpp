@@ -54,13 +54,13 @@ class Loads {
   };
   Impulse impulse(const Group& group, const Moment& moment) const;
 
-  Conditions all_;
+  Conditions conditions_;      // those that add forces
   Group even_;                 // once a whole step
   std::vector<Group> groups_;  // in their points' own steps
   std::vector<Impulse> now_;
   std::optional<Levels> before_;
   int highest_ = 0;
-  bool any_, change_;
+  bool change_;
 };
 
 }  // namespace strut

@@ -148,9 +148,7 @@ void Equilibrium::check_values() {
   const std::vector<Vector> kept = body_.force_density;
   add_forces(conditions_, t_ + dt_, 1, body_);
   put_back(kept, body_);
-  const Communicator& ranks = body_.domain.communicator;
-  const std::string no_number = conditions_.first_not_finite();
-  raise_together(ranks, ranks.first_rank(!no_number.empty()) == ranks.rank() ? no_number : "");
+  raise_first(body_.domain.communicator, conditions_.first_not_finite());
 }
 
 Imbalance Equilibrium::evaluate(bool with_diagnostics) {

@@ -53,41 +53,6 @@ std::vector<std::string> lines_of(const std::string& text) {
               ". A run can go on with another final time, and other times of output, not with another model");
 }
 
-// Checks that the file has all parts of the snapshot. `counts`: number of points of each group over all ranks.
-void compare(const fs::path& path, const NetcdfLists& file, const Snapshot& snapshot,
-             const std::vector<std::int64_t>& counts) {
-  int lists = 1 + static_cast<int>(snapshot.rank_sums.size());  // the list of checksums counts, too
-  for (const auto& [name, value] : snapshot.numbers) {
-    if (!file.has_number(name_of_number(name))) differs(path, "it has no number '" + name + "'");
-  }
-  for (const auto& [name, value] : snapshot.rank_sums) {
-    if (file.size(name_of_rank_sum(name)) == 0) differs(path, "it has no number '" + name + "'");
-  }
-  const std::vector<std::string> groups = lines_of(file.text(name_of_groups));
-  for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    const Snapshot::Group& group = snapshot.groups[g];
-    if (g >= groups.size() || groups[g] != group.name) {
-      differs(path, "it has the points of '" + (g < groups.size() ? groups[g] : "nothing") +
-                        "' where the deck's mesh has '" + group.name + "'");
-    }
-    const std::size_t count = file.size(name_of_ids(g));
-    if (count != static_cast<std::size_t>(counts[g])) {
-      differs(path, group.name + ": " + std::to_string(count) + " points there, " + std::to_string(counts[g]) +
-                        " in the deck's mesh");
-    }
-    if (count > 0) lists += 1 + static_cast<int>(group.columns.size());
-    for (const Snapshot::Column& column : group.columns) {
-      if (file.size(name_of(g, column.name)) != count * static_cast<std::size_t>(column.width)) {
-        differs(path, group.name + ": no column '" + column.name + "' that fits");
-      }
-    }
-  }
-  if (file.lists() != lists) {
-    differs(path,
-            "it has " + std::to_string(file.lists()) + " lists of numbers; the deck asks for " + std::to_string(lists));
-  }
-}
-
 // The checksum of a list, read in portions.
 template <class T>
 double sum_of(const NetcdfLists& file, const std::string& name) {
@@ -136,6 +101,19 @@ class PartsOfFile {
     return true;
   }
 
+  // Throws Error unless the file has all that the snapshot asks for, and no more.
+  void expect(const Snapshot& snapshot, const std::vector<std::int64_t>& counts) const {
+    for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
+      const std::string there = g < groups_.size() ? groups_[g] : "nothing", &here = snapshot.groups[g].name;
+      if (there != here)
+        differs(path_, "it has the points of '" + there + "' where the deck's mesh has '" + here + "'");
+    }
+    std::vector<std::string> missing;
+    compare(
+        snapshot, counts, [](const std::string&) { return true; }, missing);
+    if (!missing.empty()) differs(path_, "it has no '" + joined(missing, "', '") + "' that fits");
+    if (lists_ != lists_of(snapshot)) differs(path_, "it has lists of numbers that the deck does not ask for");
+  }
   // Throws Error if any list is damaged.
   void check_all() const {
     std::set<std::string> ids;
@@ -288,8 +266,7 @@ std::string read_checkpoint(const fs::path& newest, const Communicator& communic
   std::string note;  // on rank 0
   const auto open = [&] {
     NetcdfLists found = opened(path);
-    compare(path, found, snapshot, counts);
-    PartsOfFile(path, found).check_all();
+    PartsOfFile(path, found).expect(snapshot, counts);
     file.emplace(std::move(found));
   };
   run_on_root(communicator, [&] { open_either(newest, path, open, note); });

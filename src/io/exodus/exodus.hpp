@@ -65,7 +65,6 @@ class ExodusWriter {
   ExodusWriter(const std::filesystem::path& file, const Communicator& communicator, const PointCloud& cloud,
                std::vector<OutputField> fields, int frames = 0, double sum = 0, std::optional<double> uncounted = {});
   ~ExodusWriter();
-  ExodusWriter(ExodusWriter&&) noexcept;
 
   // columns[k]: field k, all components of this rank's points, point by point. Throws Error if the disk is full.
   void write(double time, std::span<const std::vector<double>> columns);

@@ -37,8 +37,7 @@ PointCloud on_all_ranks(const Communicator& communicator, const Action& action) 
   } catch (const Error& error) {
     problem = error.what();
   }
-  const double first = communicator.min(problem.empty() ? communicator.size() : communicator.rank());
-  raise_together(communicator, communicator.rank() == first ? problem : "");
+  raise_first(communicator, problem);
   return cloud;
 }
 

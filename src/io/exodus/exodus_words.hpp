@@ -1,10 +1,13 @@
-// Inside io: names in the form of the Exodus library, and errors about a file.
+// Inside io: names in the form of the Exodus library, their numbers, and errors about a file.
 #pragma once
 
 #include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <numeric>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +49,21 @@ class NameTable {
 
 inline std::string quoted(const std::string& name, std::int64_t id) {
   return name.empty() ? std::to_string(id) : "'" + name + "'";
+}
+
+// Exodus needs numbers beside names. A reader calls the unnamed block 7 "block_7": if all names are of this form and
+// distinct, these are their numbers; else 1, 2, …
+inline std::vector<std::int64_t> numbers_of(const std::vector<std::string>& names, const std::string& prefix) {
+  std::set<std::int64_t> distinct;
+  std::vector<std::int64_t> numbers;
+  for (const std::string& name : names) {
+    int number = 0;
+    if (name.starts_with(prefix)) std::from_chars(name.data() + prefix.size(), name.data() + name.size(), number);
+    if (number > 0 && name == prefix + std::to_string(number)) distinct.insert(number);
+    numbers.push_back(number);
+  }
+  if (distinct.size() != names.size()) std::iota(numbers.begin(), numbers.end(), 1);
+  return numbers;
 }
 
 // Reports blocks, or node sets, with the same number or name: the library finds them by number, the deck by name. "" if

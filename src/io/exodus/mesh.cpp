@@ -9,8 +9,8 @@
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/exodus/exodus_file.hpp"
+#include "io/exodus/exodus_words.hpp"
 #include "io/exodus/mesh_read.hpp"
-#include "io/exodus/numbering.hpp"
 
 namespace strut::io {
 

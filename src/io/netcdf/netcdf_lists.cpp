@@ -133,10 +133,4 @@ std::size_t NetcdfLists::size(const std::string& name) const {
   return size;
 }
 
-int NetcdfLists::lists() const {
-  int count = 0;
-  check(nc_inq_nvars(handle_, &count), "count its lists");
-  return count;
-}
-
 }  // namespace strut::io

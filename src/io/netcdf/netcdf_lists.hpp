@@ -38,7 +38,6 @@ class NetcdfLists {
   void get(const std::string& name, std::span<std::int64_t> values, std::int64_t begin) const;
   bool has_number(const std::string& name) const;
   std::size_t size(const std::string& name) const;  // of a list; 0 if there is none
-  int lists() const;
 
  private:
   explicit NetcdfLists(std::filesystem::path path);

@@ -181,12 +181,26 @@ bool has_flowed(const MaterialBlock& block, int k) {
   return std::visit(at_any_place, block.material.law);
 }
 
+// True if the pressure of a cell is so large beside its flow stress that it is confined: in bending it is 0.33 of it,
+// in plane strain 0.58; in uniaxial strain 1.08 at a Poisson's ratio of 0.3, and grows without limit.
+bool is_confined(const MaterialBlock& block, int k) {
+  constexpr double most = 0.8;
+  Symmetric mean = Symmetric::Zero();
+  double flow_stress = 0;
+  for (int q = 0; q < 4; ++q) {
+    const Symmetric stress = block.cells[block.index(k, q)].stress;
+    mean += 0.25 * stress, flow_stress = std::max(flow_stress, von_mises(stress));
+  }
+  return std::abs(trace(mean)) / 3 > most * flow_stress;
+}
+
 }  // namespace
 
 bool begin_flow(Body& body, MaterialBlock& block, int k) {
   const int i = block.points[k];
   if (block.flowed[k] || !body.fits->carries_stress(i) || !has_flowed(block, k)) return false;
-  block.flowed[k] = 1;
+  block.flowed[k] = is_confined(block, k) ? 2 : 1;
+  if (block.flowed[k] == 2) return true;
   body.fits->refit_in_flow(body, i);
   for (int q = 0; q < 4; ++q) {
     const std::size_t index = block.index(k, q);
@@ -210,7 +224,7 @@ void refit_flowed(Body& body) {
   for (const MaterialBlock& block : body.blocks) {
     for_each_point(0, static_cast<int>(block.flowed.size()), [&](int k) {
       const int i = block.points[k];
-      if (block.flowed[k] && body.fits->carries_stress(i)) body.fits->refit_in_flow(body, i);
+      if (block.flowed[k] == 1 && body.fits->carries_stress(i)) body.fits->refit_in_flow(body, i);
     });
   }
 }

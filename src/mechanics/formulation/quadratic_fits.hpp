@@ -75,10 +75,14 @@ void make_consistent(Body& body, QuadraticFits& fits);
 // While a cell is elastic, its fit has the smallest penalty on H, which makes the stiffness accurate. In plastic flow,
 // strain localizes in a hinge, which so steep a fit hinders: a strut three cells thick would bear 16 % too much
 // (tests/reference, bench_limit_load). So from the first flow on the fit has a larger penalty.
+//
+// Cells whose pressure is near their flow stress keep the elastic fit. μ is that of elastic fits: beside others a
+// uniform stress causes forces, which grow with the pressure without limit while the resistance to them does not. An
+// uneven mesh below a pressed face took the force of a dense block to a sixth.
 
 // If block.points[k] has flowed for the first time, its integration points share their change of volume from now on
-// (shared_volume.hpp), and its motion is fitted anew. They go on from the gradients of the new fit at the present
-// positions; their stress stays. Returns true if flow began.
+// (shared_volume.hpp), and its motion is fitted anew unless it is confined. They go on from the gradients of the new
+// fit at the present positions; their stress stays. Returns true if flow began.
 bool begin_flow(Body& body, MaterialBlock& block, int k);
 
 // The same for all owned cells; returns true if any cell began to flow. Ghosts must be at their present positions. The

@@ -567,6 +567,49 @@ TEST(PeriodicSides, TellOfCellsWithoutANeighborButNotOfACrack) {
   EXPECT_TRUE(told("2e-3", false));
 }
 
+// Where nodes are double, as those of a crack or of bodies that touch, the two halves of a bar are beside each other at
+// the sides as within: bonds run through either one.
+TEST(PeriodicSides, LeaveDoubleNodesApart) {
+  Parts parts;
+  parts.materials = metal("Elastic Correspondence", key("Formulation", "Quadratic Correspondence"));
+  parts.blocks =
+      section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+  parts.conditions = sides("y", "0", "4e-3") + sides("z", "0", "6e-3");
+  const auto made = [&](const RunFolder& folder) {
+    const Scene scene = set_up(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+    return std::pair(scene.pieces, scene.bonds);
+  };
+  const auto [one, bonds_of_half] = made(RunFolder(Lattice{.nx = 2}));
+  EXPECT_EQ(one, 1);
+  const RunFolder folder;
+  io::Mesh mesh = Lattice{}.mesh();
+  const auto nodes = mesh.nodes;
+  mesh.nodes.insert(mesh.nodes.end(), nodes.begin(), nodes.end());
+  for (std::size_t e = 0; e < mesh.blocks[0].elements(); ++e) {
+    int* const corners = &mesh.blocks[0].nodes[8 * e];
+    const bool is_beyond = nodes[corners[0]][0] > 1.5e-3;
+    for (int n = 0; n < 8 && is_beyond; ++n) corners[n] += static_cast<int>(nodes.size());
+  }
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+  EXPECT_EQ(made(folder), std::pair(std::int64_t{2}, 2 * bonds_of_half));
+}
+
+// A plane that only holds a block (plane strain), here the first condition, is no side.
+TEST(PeriodicSides, AreNoSymmetryPlanes) {
+  Parts parts;
+  parts.materials = metal("Elastic Correspondence", key("Formulation", "Quadratic Correspondence"));
+  parts.blocks =
+      section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+  const RunFolder folder;
+  const auto made = [&](const std::string& conditions) {
+    parts.conditions = conditions + sides("x", "0", "4e-3");
+    const Scene scene = set_up(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+    EXPECT_EQ(scene.warnings.find("have no neighbor behind it"), std::string::npos) << scene.warnings;
+    return scene.bonds;
+  };
+  EXPECT_EQ(made(plane("p", "Symmetry Plane", "bar", "0 0 2e-3", "0 0 1")), made(""));
+}
+
 // Nodes miss the sides by the round-off of single precision; points without nodes show gaps at them.
 TEST(PeriodicSides, TellWhereTheyDoNotContinueTheMesh) {
   const auto told = [](bool text, const std::string& lower, const std::string& upper) {

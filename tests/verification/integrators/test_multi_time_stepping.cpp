@@ -1,6 +1,9 @@
 // Multi-time-stepping: a run with subcycled points is stable, keeps what is to be kept, and comes to the same result.
 #include <gtest/gtest.h>
 
+#include <iomanip>
+
+#include "base/text.hpp"
 #include "verification/probes.hpp"
 
 namespace strut {
@@ -218,6 +221,42 @@ TEST(MultiTimeStepping, AreOneForAllThatMoveDampedPoints) {
     return body.domain.reference(i)[0] < 3 * h ? static_cast<double>(most - body.time_levels[i]) : 0.0;
   };
   EXPECT_EQ(largest_over(body, below_it), 0);
+}
+
+// The largest stress of the stiff part, pressed at its end by a load that grows over ten of the soft part's steps, and
+// the momentum that is left over that of the load.
+std::pair<double, double> pressed(bool subcycling) {
+  constexpr double load = 1e8;  // N/m³
+  Body body = bar(1000, stabilized(MeanGradientStabilization{0.05}));
+  Conditions conditions;
+  std::vector<int> end;
+  for (int i = 0; i < body.owned(); ++i) {
+    if (body.domain.reference(i)[0] < h) end.push_back(i);
+  }
+  const double rise = 10 * slow_step, time = 40 * slow_step;
+  conditions.add(BodyForce{end, {0}, Function::parse(text_of("1e8*min(1,t/", std::setprecision(17), rise, ")"))});
+  CentralDifference solver(body, conditions, {}, {.subcycling = subcycling}, 0);
+  EXPECT_EQ(max_level(body) > 3, subcycling);
+  double most = 0;
+  while (true) {
+    solver.advance_velocity(time);
+    most = std::max(most, largest_over(body, [&](int i) {
+                      return body.block_of(i).name == "stiff" ? body.points[i].stress.norm() : 0.0;
+                    }));
+    if (solver.time() >= time) break;
+    solver.advance_position(true);
+  }
+  return {most, solver.ledger().momentum[0] / (25 * h * h * h * load * (time - 0.5 * rise)) - 1};
+}
+
+// Once a whole step, the load's impulses would strike the stiff part by a multiple of its stress. The momentum is that
+// of the load but for its samples where it turns.
+TEST(MultiTimeStepping, LoadsActInTheStepsOfStiffPoints) {
+  const auto [with, off] = pressed(true);
+  const auto [without, off_without] = pressed(false);
+  EXPECT_NEAR(with / without, 1, 0.02);
+  EXPECT_NEAR(off, 0, 1e-3);
+  EXPECT_NEAR(off_without, 0, 1e-3);
 }
 
 // Points at the surface are faster than those within: less than what is worth while.

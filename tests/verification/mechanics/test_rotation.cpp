@@ -16,7 +16,10 @@ Tensor turned(double angle, const Vector& axis) {
 }
 
 Tensor next_rotation(const Tensor& R, const Tensor& F) {
-  return small::to_eigen(polar_update(small::from_eigen(R), small::from_eigen(F)).rotation);
+  small::Tensor3<double> old, gradient;
+  for (int k = 0; k < 9; ++k) old.c[k / 3][k % 3] = R(k / 3, k % 3), gradient.c[k / 3][k % 3] = F(k / 3, k % 3);
+  const auto next = polar_update(old, gradient).rotation;
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(next.c[0]);
 }
 
 TEST(Rotation, FullTurnLeavesNoStress) {
