@@ -304,7 +304,8 @@ void CentralDifference::restrict_conditions(const std::optional<std::vector<std:
 void CentralDifference::agree(const StepReport& report) {
   const std::string no_number = conditions_.first_not_finite();
   const std::vector<std::uint8_t>& exposed = multi_stepping_.exposed();
-  const bool rubs_unlike = multi_stepping_.level_count() > 0 &&
+  constexpr int steps_a_look = 8;  // each costs some hundredths of a step
+  const bool rubs_unlike = multi_stepping_.level_count() > 0 && steps() % steps_a_look == 0 &&
                            is_uneven(body_, rubbed_points(body_, conditions_, body_.velocity, time_, dt()));
   std::vector<double> agreed{static_cast<double>(no_number.empty() ? severity(report) : fatal),
                              static_cast<double>(request_),
