@@ -1,7 +1,9 @@
 #include "conditions/conditions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <concepts>
+#include <span>
 #include <string>
 
 #include "base/errors.hpp"
@@ -48,25 +50,31 @@ bool depend_on_time(const Conditions& conditions, Stage stage) {
 
 namespace {
 
-// Collective. True if these points on all ranks are all those of the bodies to which they belong.
-bool are_whole_bodies(const std::vector<int>& points, const Body& body) {
-  const auto bodies = static_cast<std::size_t>(body.domain.body_count());
+// Collective. For each body the number of ranks with points that are not among these, and with points that are.
+std::vector<std::array<double, 2>> ranks_without_and_with(const std::vector<int>& points, const Body& body) {
   std::vector<std::uint8_t> marks(body.owned(), 0);
   for (const int i : points) marks[i] = 1;
-  std::vector<double> has(2 * bodies, 0);  // points that are not among these, and that are
-  for (int i = 0; i < body.owned(); ++i) has[2 * body.domain.body_of(i) + marks[i]] = 1;
-  body.domain.communicator.max(has);
-  bool whole = true;
-  for (std::size_t b = 0; b < bodies; ++b) whole = whole && has[2 * b] * has[2 * b + 1] == 0;
-  return whole;
+  std::vector<std::array<double, 2>> has(body.domain.body_count(), {0, 0});
+  for (int i = 0; i < body.owned(); ++i) has[body.domain.body_of(i)][marks[i]] = 1;
+  if (!has.empty()) body.domain.communicator.sum(std::span(has[0].data(), 2 * has.size()));
+  return has;
+}
+
+bool are_whole(const std::vector<std::array<double, 2>>& has) {
+  return std::ranges::none_of(has, [](const auto& one) { return one[0] > 0 && one[1] > 0; });
 }
 
 }  // namespace
 
-std::pair<Conditions, Conditions> loads_on_wholes_and_parts(const Conditions& conditions, const Body& body) {
-  std::pair<Conditions, Conditions> found;
-  conditions.visit(
-      [&](const AddsForces auto& one) { (are_whole_bodies(one.points, body) ? found.first : found.second).add(one); });
+std::pair<bool, std::vector<std::size_t>> extent_of(const Conditions& load, const Body& body) {
+  std::pair<bool, std::vector<std::size_t>> found{true, {}};
+  load.visit([&](const AddsForces auto& one) {
+    const auto has = ranks_without_and_with(one.points, body);
+    found.first = are_whole(has);
+    for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+      if (has[body.domain.blocks[b].body][1] > 0) found.second.push_back(b);
+    }
+  });
   return found;
 }
 
@@ -81,7 +89,7 @@ Conditions changing_on_parts(const Conditions& conditions, const Body& body) {
   conditions.visit([&]<class T>(const T& one) {
     if constexpr (AddsForces<T> || std::same_as<T, PrescribedMotion>) {
       const std::vector<Function> values = one.values_at_points();
-      if (std::ranges::any_of(values, &Function::depends_on_time) && !are_whole_bodies(one.points, body))
+      if (std::ranges::any_of(values, &Function::depends_on_time) && !are_whole(ranks_without_and_with(one.points, body)))
         changing.add(one);
     }
   });

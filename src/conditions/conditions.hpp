@@ -68,9 +68,9 @@ class Conditions {
 // True if any condition of a stage has a value that changes with time.
 bool depend_on_time(const Conditions& conditions, Stage stage);
 
-// Collective. The conditions that add forces, those first that act on all points of each body that they act on.
-std::pair<Conditions, Conditions> loads_on_wholes_and_parts(const Conditions& conditions, const Body& body);
-// Their parts for some points.
+// Collective. Whether a load acts on all points of each body that it acts on, and the blocks of these bodies.
+std::pair<bool, std::vector<std::size_t>> extent_of(const Conditions& load, const Body& body);
+// The parts of loads for some points.
 Conditions loads_on(const Conditions& loads, const MovingPoints& some);
 // Collective. The loads and prescribed motions of parts of bodies that change with time.
 Conditions changing_on_parts(const Conditions& conditions, const Body& body);

@@ -3,34 +3,52 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <tuple>
 #include <utility>
 
 namespace strut {
 
+namespace {
+
+bool move_rigidly(const Body& body, const std::vector<std::size_t>& blocks) {
+  return std::ranges::all_of(blocks, [&](std::size_t b) { return body.blocks[b].in_rigid_motion; });
+}
+
+}  // namespace
+
 Loads::Loads(const Conditions& conditions) : change_(depend_on_time(conditions, Stage::forces)) {
-  conditions.visit([this](const AddsForces auto& one) { conditions_.add(one); });
-  even_ = {0, 0, conditions_};
+  conditions.visit([this](const AddsForces auto& one) { loads_.emplace_back().condition.add(one); });
+  regroup();
 }
 
 void Loads::take_levels(const Body& body, const std::optional<Levels>& before, const Levels& after, int highest) {
-  if (conditions_.count() == 0) return;
-  highest_ = highest;
-  groups_.clear(), now_.clear();
-  before_ = before;
-  even_.loads = conditions_;
-  if (highest == 0 && !before) return;
-  Conditions parts;
-  std::tie(even_.loads, parts) = loads_on_wholes_and_parts(conditions_, body);
-  const auto level = [](const Levels& levels, int i) { return levels.empty() ? 0 : levels[i]; };
-  std::map<std::pair<int, int>, Levels> members;  // marks, by the levels before and after
-  for (int i = 0; i < body.owned(); ++i) {
-    Levels& marks = members[{level(before ? *before : after, i), level(after, i)}];
-    marks.resize(body.owned(), 0);
-    marks[i] = 1;
+  if (loads_.empty()) return;
+  highest_ = highest, before_ = before, after_ = after;
+  after_.resize(body.owned(), 0);
+  if (before_) before_->resize(body.owned(), 0);
+  for (Load& load : loads_) {
+    if (highest > 0) std::tie(load.is_on_wholes, load.blocks) = extent_of(load.condition, body);
   }
-  for (const auto& [levels, marks] : members)
-    groups_.push_back({levels.first, levels.second, loads_on(parts, {marks, 1})});
+  regroup();
+}
+
+// Puts the points of loads into groups of equal steps.
+void Loads::regroup() {
+  groups_.clear(), now_.clear();
+  for (const Load& load : loads_) {
+    const bool of_whole_steps = (load.was_whole && load.is_whole) || (highest_ == 0 && !before_);
+    std::map<std::pair<int, int>, Levels> members;  // marks, by the levels before and after
+    for (std::size_t i = 0; !of_whole_steps && i < after_.size(); ++i) {
+      const int first = load.was_whole ? 0 : (before_ ? *before_ : after_)[i], last = load.is_whole ? 0 : after_[i];
+      Levels& marks = members[{first, last}];
+      marks.resize(after_.size(), 0);
+      marks[i] = 1;
+    }
+    if (of_whole_steps) groups_.push_back({0, 0, load.condition});
+    for (const auto& [levels, marks] : members)
+      groups_.push_back({levels.first, levels.second, loads_on(load.condition, {marks, 1})});
+  }
 }
 
 Loads::Impulse Loads::impulse(const Group& group, const Moment& moment) const {
@@ -46,8 +64,15 @@ Loads::Impulse Loads::impulse(const Group& group, const Moment& moment) const {
 }
 
 void Loads::add(const Moment& moment, Body& body) {
+  if (moment.level == 0 && highest_ > 0) {
+    bool changes = false;
+    for (Load& load : loads_) {
+      load.is_whole = load.is_on_wholes && move_rigidly(body, load.blocks);
+      changes |= load.is_whole != load.was_whole;
+    }
+    if (changes) regroup();
+  }
   now_.clear();
-  if (moment.level == 0) now_.push_back(impulse(even_, moment));
   for (const Group& group : groups_) {
     if (group.after >= moment.level) now_.push_back(impulse(group, moment));
   }
@@ -64,10 +89,13 @@ void Loads::add_work(double impulse_time, const Body& body, ImpulseWork& work) c
 
 void Loads::end_whole_step() {
   before_.reset();
+  for (Load& load : loads_) load.was_whole = load.is_whole;
   for (Group& group : groups_) group.before = group.after;
 }
 
 void Loads::serialize(Archive& archive, const Body& body) {
+  for (std::size_t n = 0; n < loads_.size(); ++n)
+    archive.number("load_" + std::to_string(n) + "_in_whole_steps", loads_[n].was_whole);
   bool differ = body.domain.communicator.any(before_.has_value());
   archive.number("load_levels_differ", differ);
   if (!differ) return before_.reset();

@@ -1,8 +1,8 @@
 // The loads of explicit steps, with the times and the parts of impulses for which they act on points with substeps.
 //
-// A load on a part of a body acts in its points' own steps: once a whole step, its impulse would strike stiff points by
-// so many times the stress that it causes as they have substeps. A load on whole bodies, such as weight, acts once a
-// whole step, so that a body that falls stays undeformed to the last bit.
+// A load acts in its points' own steps: once a whole step, its impulse would strike stiff points by so many times the
+// stress that it causes as they have substeps. A load on whole bodies that move rigidly, such as the weight of one that
+// falls, acts once a whole step, so that they stay undeformed to the last bit.
 #pragma once
 
 #include <cstdint>
@@ -35,14 +35,20 @@ class Loads {
   void add(const Moment& moment, Body& body);
   // Adds the work of the loads last added, once velocities are final; `impulse_time`: that of force densities, s.
   void add_work(double impulse_time, const Body& body, ImpulseWork& work) const;
-  // The impulse at a whole step is over: the next one has the same levels on both sides.
+  // The impulse at a whole step is over: the next one has the same steps on both sides.
   void end_whole_step();
 
-  // Collective. Saves or restores the levels in the last step, if they were others.
+  // Collective. Saves or restores the steps before, where they were others.
   void serialize(Archive& archive, const Body& body);
   const std::optional<Levels>& levels_before() const { return before_; }
 
  private:
+  struct Load {
+    Conditions condition;
+    bool is_on_wholes = false;                 // on all points of each body that it acts on
+    std::vector<std::size_t> blocks = {};      // that it acts on, on any rank
+    bool was_whole = false, is_whole = false;  // acts once a whole step, before and after the next impulse
+  };
   struct Group {
     int before, after;  // levels of its points
     Conditions loads;
@@ -54,11 +60,13 @@ class Loads {
   };
   Impulse impulse(const Group& group, const Moment& moment) const;
 
-  Conditions conditions_;      // those that add forces
-  Group even_;                 // once a whole step
-  std::vector<Group> groups_;  // in their points' own steps
+  void regroup();
+
+  std::vector<Load> loads_;
+  std::vector<Group> groups_;
   std::vector<Impulse> now_;
   std::optional<Levels> before_;
+  Levels after_;
   int highest_ = 0;
   bool change_;
 };
