@@ -210,6 +210,7 @@ bool meet(const deck::Deck& deck, const std::string& one, const std::string& oth
 
 // Collective.
 AtOtherParts at_other_parts(const Domain& domain, const deck::Deck& deck) {
+  if (domain.cloud.at == PointsAt::nodes) return {};
   const MeshNodes nodes(domain);
   if (!nodes.any()) return {};
   const std::vector<std::int64_t> parts = nodes.parts(domain);
