@@ -381,6 +381,28 @@ TEST(Overlaps, OfSeparateBodiesAreTold) {
   }
 }
 
+// Contact by surfaces takes away what bodies overlap by at the start, less than a spacing here.
+TEST(Overlaps, OfSurfacesAreTold) {
+  const auto told = [](double overlap) {
+    const RunFolder folder;
+    folder.write("points.txt",
+                 cubes(1, Vector::Zero(), 6, 6, 6, 1e-3) + cubes(2, {0, 0, 6e-3 - overlap}, 6, 6, 6, 1e-3));
+    Parts parts = thrown_block(section("Models", section("m", key("Contact Model", "Surface"))) +
+                               section("Interactions", section("General Contact", key("Contact Model", "m"))));
+    parts.blocks.clear();
+    for (const std::string block : {"block_1", "block_2"}) {
+      parts.blocks += section(block, key("Block Names", block) + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                         key("Separate Body", "true"));
+    }
+    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+  };
+  // Known to a tenth: the density of the other body is no straight line over the distance.
+  EXPECT_NE(told(0.3e-3).find("blocks 'block_1' and 'block_2' overlap by up to about 0.3"), std::string::npos)
+      << told(0.3e-3);
+  EXPECT_NE(told(0.7e-3).find("blocks 'block_1' and 'block_2' overlap by up to about 0."), std::string::npos);
+  for (const double overlap : {0.0, -0.3e-3}) EXPECT_EQ(told(overlap).find("overlap by"), std::string::npos);
+}
+
 TEST(Overlaps, AreThoseOfTheStart) {
   const auto told = [](double apart, const std::string& by) {
     return warnings(apart, true, "", along("lift", "Initial Displacement", "block_2", "xyz", by))
