@@ -38,8 +38,12 @@ void check_blocks(const deck::Deck& deck, const PointCloud& cloud, const std::ve
     for (const std::string& name : section.block_names) {
       const auto& valid = cloud.block_names;
       if (name == "all" || name == "default" || std::find(valid.begin(), valid.end(), name) != valid.end()) continue;
-      problems.add("Blocks > " + section.name + " > Block Names",
-                   "the mesh has no block '" + name + "'" + did_you_mean(name, valid) + "; it has " + joined(valid));
+      const bool has_blank =
+          std::ranges::any_of(valid, [](const std::string& one) { return one.find(' ') != one.npos; });
+      problems.add(
+          "Blocks > " + section.name + " > Block Names",
+          "the mesh has no block '" + name + "'" + did_you_mean(name, valid) + "; it has " + joined(valid) +
+              (has_blank ? " (blanks separate names here: one with a blank is meant by 'all' or 'default')" : ""));
     }
   }
   for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
