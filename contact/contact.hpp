@@ -77,6 +77,9 @@ class Contact {
   // True if two blocks have an interaction, or one by surfaces.
   bool between(int first, int second) const;
   bool by_surfaces(int first, int second) const;
+  // The largest overlap of the surfaces of two blocks at the start, of this rank's points, in spacings: contact takes
+  // it for touching.
+  double overlap_at_start(int first, int second) const;
   // The last force by block `second` on this rank's points of block `first`, with friction, N.
   Vector force(const Domain& domain, int first, int second) const;
 

@@ -41,6 +41,14 @@ bool Contact::by_surfaces(int first, int second) const {
                      [&](const ContactPair& c) { return c.surfaces && is_of(c.blocks, first, second); });
 }
 
+double Contact::overlap_at_start(int first, int second) const {
+  double largest = 0;
+  for (const ContactPair& c : contact_pairs_) {
+    if (c.surfaces && is_of(c.blocks, first, second)) largest = std::max(largest, c.surfaces->overlap_at_start());
+  }
+  return largest;
+}
+
 void Contact::visit_normal_forces(const ContactPair& contact_pair,
                                   const std::function<void(std::size_t, Vector)>& visit) {
   if (contact_pair.surfaces) {

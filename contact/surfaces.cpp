@@ -68,9 +68,19 @@ void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, con
   Pairs pairs = find_pairs({domain, at_rest, densities}, blocks, law.radius, none);
   take(domain, blocks, {}, {}, pairs);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    double& threshold = points_[places_[k]].threshold;
-    threshold = std::max(threshold, feel(pairs, k).volume_fraction);
+    SurfacePoint& point = points_[places_[k]];
+    const double felt = std::max(point.threshold, feel(pairs, k).volume_fraction);
+    point.at_start = (felt - point.threshold) / point.slope;
+    point.threshold = felt;
   }
+}
+
+double Surfaces::overlap_at_start() const {
+  double largest = 0;
+  for (const SurfacePoint& point : points_) {
+    if (point.is_at_surface) largest = std::max(largest, point.at_start / point.spacing);
+  }
+  return largest;
 }
 
 void Surfaces::take(const Domain& domain, const BlockPair& blocks, const BrokenCounts& before, const BrokenCounts& now,

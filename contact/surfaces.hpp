@@ -32,6 +32,7 @@ struct SurfacePoint {
   double spacing = 0;    // m
   double volume = 0;     // m³
   bool is_at_surface = false;
+  double at_start = 0;  // overlap at the start, m: the threshold includes it
 };
 
 // A point of a body whose bonds have broken. Material seen at the break gives no pressure, since that would
@@ -54,6 +55,9 @@ class Surfaces {
   // Collective. The blocks must be at their initial positions. Bodies whose surfaces overlap at the start do not press
   // each other thereby: the overlap is added to the threshold.
   Surfaces(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law);
+
+  // The largest overlap at the start of this rank's points, in spacings.
+  double overlap_at_start() const;
 
   // Call it after a search. `before`, `now`: numbers of broken bonds of blocks.points at the previous search and at
   // this one; empty if no bonds may break, `before` also at the first search.

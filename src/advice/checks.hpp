@@ -178,7 +178,8 @@ Check undeclared_contacts;
 // bonded points; for interactions of all blocks, only if all these bonds bridge a gap; for a block and itself, if bonds
 // bridge a gap between parts of its mesh.
 Check bonded_contacts;
-// A warning for every two blocks without an interaction whose bonds all bridge a gap, unless other blocks join them.
+// A warning for every two blocks without an interaction whose bonds all bridge a gap, unless other blocks join them, and
+// for every block without one with itself whose parts are bonded across a gap.
 Check bonded_gaps;
 // A warning for every two bonded blocks that meet others by surfaces: each senses, and is sensed, as if it ended at the
 // other.

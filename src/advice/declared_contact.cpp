@@ -77,9 +77,13 @@ namespace {
 
 Vector bond(const Domain& domain, int i, int j) { return domain.reference(j) - domain.reference(i); }
 
-// Layers of one lattice, or of two matching lattices, are never that many spacings apart. Elements without a common
-// node are separate from a smaller distance on.
-constexpr double gap_of_points = 1.25, gap_of_elements = 1.02;
+// Points of elements are layers of a lattice, or of two matching ones, up to that many spacings apart; nodes that no
+// element joins are at one place. Points whose elements are unknown need not be a lattice: without contact they touch
+// up to a larger distance.
+constexpr double gap_of_elements = 1.02, gap_of_nodes = 0.1, gap_of_points = 1.25;
+
+// For points of known elements.
+double known_gap(const Domain& domain) { return domain.cloud.at == PointsAt::nodes ? gap_of_nodes : gap_of_elements; }
 
 // The edges of the cell of an owned point along the axes, m, if it is one of a lattice along these, whose steps then
 // have its volume; else 0.
@@ -118,8 +122,10 @@ struct BondsBetween {
 };
 using BondsOfPairs = std::map<IndexPair, BondsBetween>;
 
-// Collective. The pairs of blocks that are bonded to each other, the lower one first.
-BondsOfPairs bonds_of_pairs(const Domain& domain, const std::vector<int>& blocks, const MeshNodes& nodes) {
+// Collective. The pairs of blocks that are bonded to each other, the lower one first. `unknown`: the gap, in spacings,
+// from which on points of unknown elements do not touch.
+BondsOfPairs bonds_of_pairs(const Domain& domain, const std::vector<int>& blocks, const MeshNodes& nodes,
+                            double unknown) {
   BondsOfPairs mine;
   if (!may_join_blocks(domain)) return mine;
   for (int i = 0; i < domain.owned; ++i) {
@@ -133,7 +139,7 @@ BondsOfPairs bonds_of_pairs(const Domain& domain, const std::vector<int>& blocks
       BondsBetween& bonds = mine[{std::min(here, blocks[j]), std::max(here, blocks[j])}];
       bonds.count += here < blocks[j] ? 1 : 0;
       bonds.joined += of_both && nodes.may_join(i, j) ? 1 : 0;
-      bonds.touching += touch(bond(domain, i, j), spacing, *edges, of_both ? gap_of_elements : gap_of_points) ? 1 : 0;
+      bonds.touching += touch(bond(domain, i, j), spacing, *edges, of_both ? known_gap(domain) : unknown) ? 1 : 0;
     });
   }
   std::vector<IndexPair> pairs;
@@ -180,7 +186,7 @@ std::vector<std::int64_t> parts_of(const Domain& domain, const std::vector<int>&
   parts = piece_ids(domain, [&](int i, int j) {
     return nodes.may_join(i, j) ||
            touch(bond(domain, i, j), 0.5 * (domain.blocks[blocks[i]].spacing + domain.blocks[blocks[j]].spacing),
-                 mean_of(edges[i], edges[j]), gap_of_elements);
+                 mean_of(edges[i], edges[j]), known_gap(domain));
   });
   parts.resize(domain.sites.size());
   domain.halo.exchange(parts);
@@ -242,7 +248,7 @@ std::string bonded_contacts(const Situation& situation) {
                             " bonds across gaps, between whose ends contact never acts; expected, for bodies that "
                             "meet, a block of the mesh for each of them, with Separate Body true\n");
   }
-  for (const auto& [pair, bonds] : bonds_of_pairs(domain, blocks, nodes)) {
+  for (const auto& [pair, bonds] : bonds_of_pairs(domain, blocks, nodes, gap_of_elements)) {
     const auto& [a, b] = pair;
     const deck::Interaction* one = interaction_of(deck, names, a, b);
     if (!one || (one->first_block.empty() && !(whole && bonds.are_across_a_gap()))) continue;
@@ -259,11 +265,23 @@ std::string bonded_contacts(const Situation& situation) {
 // Where contact is declared, bonded_contacts() tells of them.
 std::string bonded_gaps(const Situation& situation) {
   const Domain& domain = situation.scene.body.domain;
-  if (!may_join_blocks(domain) || !is_whole(situation.scene.body)) return "";
+  // Cells of a grid leave no gap.
+  if (situation.deck.discretization.type == deck::MeshType::grid || !is_whole(situation.scene.body)) return "";
   std::string text;
   const std::vector<std::string>& names = domain.cloud.block_names;
   const std::set<IndexPair> declared = declared_pairs(situation);
-  const BondsOfPairs bonded = bonds_of_pairs(domain, blocks_of(domain), MeshNodes(domain));
+  const std::vector<int> blocks = blocks_of(domain);
+  const MeshNodes nodes(domain);
+  const std::vector<double> across = bonds_of_parts(domain, blocks, parts_of(domain, blocks, nodes, true));
+  for (int a = 0; a < std::ssize(names); ++a) {
+    if (across[a] == 0 || declared.contains({a, a})) continue;
+    text += text_of("WARNING: parts of block ", names[a], " that share no node are bonded to each other by ",
+                    static_cast<std::int64_t>(across[a]),
+                    " bonds across gaps, as one body; expected, for bodies that meet, a block of the mesh for each of "
+                    "them, with Separate Body true\n");
+  }
+  if (!may_join_blocks(domain)) return text;
+  const BondsOfPairs bonded = bonds_of_pairs(domain, blocks, nodes, gap_of_points);
   for (const auto& [a, b] : bonded_across_gaps(bonded, names.size())) {
     if (declared.contains({a, b})) continue;
     text += "WARNING: blocks " + names[a] + " and " + names[b] +
@@ -284,7 +302,7 @@ std::string surfaces_at_seams(const Situation& situation) {
   if (met.empty() || !may_join_blocks(domain)) return "";
   const std::vector<std::string>& names = domain.cloud.block_names;
   std::string text;
-  for (const auto& [pair, bonds] : bonds_of_pairs(domain, blocks_of(domain), MeshNodes(domain))) {
+  for (const auto& [pair, bonds] : bonds_of_pairs(domain, blocks_of(domain), MeshNodes(domain), gap_of_points)) {
     const auto& [a, b] = pair;
     const std::set<int>& others = met[b];
     if (std::ranges::none_of(met[a], [&](int block) { return others.contains(block); })) continue;

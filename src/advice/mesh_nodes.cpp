@@ -8,10 +8,9 @@ namespace strut {
 
 MeshNodes::MeshNodes(const Domain& domain) : is_image_(domain.sites.size(), 0) {
   const auto& shared = domain.cloud.shared_nodes;
-  const auto has_some = [](const std::vector<std::int64_t>& nodes) { return !nodes.empty(); };
-  const bool mine = domain.cloud.at == PointsAt::elements && std::ranges::any_of(shared, has_some);
-  any_ = domain.communicator.any(mine);
-  if (!any_) return;
+  double most = 0;
+  for (const std::vector<std::int64_t>& nodes : shared) most = std::max(most, static_cast<double>(nodes.size()));
+  nodes_.resize(static_cast<std::size_t>(domain.communicator.max(most)));
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     nodes_[k].assign(domain.sites.size(), none);
     for (int i = 0; i < domain.owned && !shared.empty(); ++i)
@@ -27,8 +26,11 @@ bool MeshNodes::has(int i, std::int64_t node) const {
 
 bool MeshNodes::may_join(int i, int j) const {
   if (!of_both(i, j) || is_image_[i] != 0 || is_image_[j] != 0) return true;
-  return std::ranges::any_of(
-      nodes_, [&](const std::vector<std::int64_t>& column) { return column[i] != none && has(j, column[i]); });
+  for (const std::vector<std::int64_t>& column : nodes_) {
+    if (column[i] == none) return false;
+    if (has(j, column[i])) return true;
+  }
+  return false;
 }
 
 std::vector<std::int64_t> MeshNodes::parts(const Domain& domain) const {

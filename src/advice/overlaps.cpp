@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -210,6 +211,7 @@ bool meet(const deck::Deck& deck, const std::string& one, const std::string& oth
 
 // Collective.
 AtOtherParts at_other_parts(const Domain& domain, const deck::Deck& deck) {
+  if (domain.cloud.at == PointsAt::nodes) return {};
   const MeshNodes nodes(domain);
   if (!nodes.any()) return {};
   const std::vector<std::int64_t> parts = nodes.parts(domain);
@@ -331,6 +333,16 @@ std::string overlaps(const Situation& situation) {
     text << "WARNING: " << found.count << " points of the blocks '" << domain.cloud.block_names[first] << "' and '"
          << domain.cloud.block_names[second] << "', one of them at " << place_text(found.one)
          << ", are inside of the other one at the start: mass counts twice there, and no contact parts them\n";
+  }
+  for (const contact::Interaction& one : situation.interactions) {
+    constexpr double worth_telling = 0.1;
+    const double overlap = domain.communicator.max(situation.scene.contact.overlap_at_start(one.first, one.second));
+    if (one.first == one.second || overlap < worth_telling) continue;
+    text
+        << "blocks '" << domain.cloud.block_names[one.first] << "' and '" << domain.cloud.block_names[one.second]
+        << "' overlap by up to about " << std::setprecision(2) << overlap
+        << " spacings at the start: contact takes this for touching, without a force, so that together they are longer "
+           "than drawn by as much\n";
   }
   return text.str();
 }

@@ -38,8 +38,12 @@ void check_blocks(const deck::Deck& deck, const PointCloud& cloud, const std::ve
     for (const std::string& name : section.block_names) {
       const auto& valid = cloud.block_names;
       if (name == "all" || name == "default" || std::find(valid.begin(), valid.end(), name) != valid.end()) continue;
-      problems.add("Blocks > " + section.name + " > Block Names",
-                   "the mesh has no block '" + name + "'" + did_you_mean(name, valid) + "; it has " + joined(valid));
+      const bool has_blank =
+          std::ranges::any_of(valid, [](const std::string& one) { return one.find(' ') != one.npos; });
+      problems.add(
+          "Blocks > " + section.name + " > Block Names",
+          "the mesh has no block '" + name + "'" + did_you_mean(name, valid) + "; it has " + joined(valid) +
+              (has_blank ? " (blanks separate names here: one with a blank is meant by 'all' or 'default')" : ""));
     }
   }
   for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
@@ -258,9 +262,18 @@ std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& ta
       "Points \"Elements\" or a finer mesh keep the mass\n");
 }
 
+namespace {
+
+// True if points of the two blocks may behave differently.
+bool are_unlike(const deck::Deck& deck, const std::string& one, const std::string& other) {
+  const deck::Block &a = *section_of(deck, one), &b = *section_of(deck, other);
+  return a.material != b.material || a.damage_model != b.damage_model || a.initial_temperature != b.initial_temperature;
+}
+
+}  // namespace
+
 std::string conditions_at_shared_nodes(const deck::Deck& deck, const Body& body, const std::vector<double>& taken) {
   constexpr double worth_telling = 0.01;  // of the volume
-  constexpr double alike = 0.1;           // relative difference of moduli
   constexpr const char* reason =
       ": a node that blocks share is of the block that stands first in the mesh; expected Points \"Elements\"\n";
   if (taken.empty()) return "";
@@ -269,20 +282,29 @@ std::string conditions_at_shared_nodes(const deck::Deck& deck, const Body& body,
   for (int i = 0; i < body.owned(); ++i) of_points[body.domain.cloud.blocks[i]] += body.domain.volume(i);
   body.domain.communicator.sum(of_points);
   std::vector<double> of_elements = of_points;
-  double all = 0, other = 0;  // m³; `other`: of elements beside nodes of another stiffness
+  double all = 0, other = 0;  // m³; `other`: of elements beside nodes of another material
+  std::string text;
   for (std::size_t p = 0; p < blocks; ++p) {
     all += of_points[p];
-    const double here = materials::moduli_of(body.blocks[p].material.law).longitudinal();
     for (std::size_t e = 0; e < blocks; ++e) {
-      const double there = materials::moduli_of(body.blocks[e].material.law).longitudinal();
-      of_elements[e] += taken[p * blocks + e], of_elements[p] -= taken[p * blocks + e];
-      if (std::abs(here - there) > alike * std::max(here, there)) other += taken[p * blocks + e];
+      const double volume = taken[p * blocks + e];
+      if (volume == 0) continue;
+      const std::string &here = body.domain.cloud.block_names[p], &there = body.domain.cloud.block_names[e];
+      of_elements[e] += volume, of_elements[p] -= volume;
+      if (are_unlike(deck, here, there)) other += volume;
+      if (body.domain.blocks[p].body == body.domain.blocks[e].body) continue;
+      text += text_of("WARNING: blocks '", here, "' and '", there,
+                      "' are separate bodies that share nodes, all of which "
+                      "are of '",
+                      here, "': '", there,
+                      "' begins a cell away from it, and contact begins only when the gap has "
+                      "closed; expected bodies with nodes of their own, or Points \"Elements\"\n");
     }
   }
-  std::string text;
   if (other > worth_telling * all)
-    text = text_of("WARNING: ", std::setprecision(2), 100 * other / all,
-                   " % of the elements' volume has the stiffness of another block", reason);
+    text += text_of("WARNING: ", std::setprecision(2), 100 * other / all,
+                    " % of the elements' volume has the material, damage model or initial temperature of another block",
+                    reason);
   for (const deck::Condition& condition : deck.conditions) {
     const auto at = std::ranges::find(body.domain.cloud.block_names, condition.node_set);
     const std::size_t k = at - body.domain.cloud.block_names.begin();

@@ -52,7 +52,8 @@ double mass_of(const Body& body);                  // collective; kg, without sc
 // densities has the density of the first one. `taken`: PointCloud::taken_volumes.
 std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& taken);
 
-// The same where they have the stiffness of the first one, or a condition of one block acts on them or not.
+// The same where they have another material, damage model or initial temperature, where a condition of one block acts
+// on them or not, and where the blocks are separate bodies.
 std::string conditions_at_shared_nodes(const deck::Deck& deck, const Body& body, const std::vector<double>& taken);
 
 }  // namespace strut

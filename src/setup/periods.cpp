@@ -219,7 +219,8 @@ std::string open_sides(const deck::Deck& deck, const Domain& domain) {
     if (Images::image(other) > 0) is_cut[i] = true;
   }
   const auto has_nodes = [](const std::vector<std::int64_t>& nodes) { return !nodes.empty(); };
-  const bool with_nodes = domain.communicator.any(std::ranges::any_of(domain.cloud.shared_nodes, has_nodes));
+  const bool with_nodes = domain.communicator.any(domain.cloud.at == PointsAt::elements &&
+                                                  std::ranges::any_of(domain.cloud.shared_nodes, has_nodes));
   std::string warnings;
   for (const Period& period : domain.periods) {
     warnings += with_nodes ? ends_at_sides(deck, domain, period, shifts, is_cut)

@@ -154,8 +154,9 @@ def initial_time(deck):
 
 
 def about_history(deck, path, times, results):
-    """Words on a history that may be of another deck, or lacks the beginning of its run; None where it is whole."""
-    return "; ".join(words for words in deck and (of_another(deck, path, results), late_begin(deck, times)) or () if words)
+    """Words on a history that may be of another deck, or lacks the beginning or end of its run; None where it is whole."""
+    ends = (of_another(deck, path, results), late_begin(deck, times), early_end(deck, times)) if deck else ()
+    return "; ".join(words for words in (*ends, cut_row(path)) if words)
 
 
 def of_another(deck, path, results):
@@ -198,6 +199,21 @@ def late_begin(deck, times):
     if deck.section("Start From") is not None or times[0] - initial_time(deck) <= 1e-9 * (times[-1] - times[0]):
         return None
     return f"begins at t = {times[0]:g} s, later than the run, at {initial_time(deck):g} s: the energy that the sample absorbed between the two is left out"
+
+
+def early_end(deck, times):
+    """Words on a history that ends before its run shall; None if it does not, or nothing says when."""
+    ends = [value_at(deck.get(solver, "Final Time", default=""), 0) for solver in ("Solver", "Solver 2")]
+    begin, end = initial_time(deck), max((end for end in ends if end is not None), default=times[-1])
+    part = (times[-1] - begin) / (end - begin) if end > begin else 1
+    return f"ends at t = {times[-1]:g} s, {100 * part:.0f} % of the run to {end:g} s: measures are of this part" if part < 0.99 else None
+
+
+def cut_row(path):
+    """Words on a last line that is not whole."""
+    with open(path, "rb") as file:
+        file.seek(-1, os.SEEK_END)
+        return None if file.read() == b"\n" else "its last row is not whole, and left out"
 
 
 def taken_off(deck, value):

@@ -155,9 +155,32 @@ def own_file(folder, name, *read, is_ours=None):
     return path
 
 
+def make_folder(path):
+    """Makes the folder of results, unless it is there."""
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        fail(f"the folder {path} cannot be made: {'a file has its name' if os.path.isfile(path) else error.strerror}")
+
+
+@contextlib.contextmanager
+def part_of(path):
+    """The name under which a file is written until it is whole: where the disk is full, an earlier one stays."""
+    whole = os.path.realpath(path)
+    part = f"{whole}.{os.getpid()}.part{os.path.splitext(path)[1]}"
+    try:
+        yield part
+        os.replace(part, whole)
+    except OSError as error:
+        fail(f"{path} cannot be written: {error.strerror}")
+    finally:
+        if os.path.exists(part):
+            os.unlink(part)
+
+
 def write_table(path, header, rows):
     """A CSV; of numbers nine digits, nothing for None."""
-    with open(path, "w", newline="") as file:
+    with part_of(path) as part, open(part, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)
         writer.writerows([f"{value:.9g}" if isinstance(value, float) else value for value in row] for row in rows)
@@ -175,7 +198,8 @@ def save_picture(figure, path, dpi=110):
     """Saves a picture with a mark of its program, which own_file checks, and closes it. Returns the path."""
     from matplotlib import pyplot
 
-    figure.savefig(path, metadata={"Software": MARK} if path.endswith(".png") else None, dpi=dpi)
+    with part_of(path) as part:
+        figure.savefig(part, metadata={"Software": MARK} if path.endswith(".png") else None, dpi=dpi)
     pyplot.close(figure)
     return path
 

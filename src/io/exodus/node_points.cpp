@@ -22,6 +22,7 @@ struct NodeSum {
   int elements = 0;
   int block = -1;                             // block of the first of them
   std::vector<std::pair<int, double>> taken;  // m³, from elements of other blocks
+  std::vector<std::int64_t> numbers;          // of the elements
 };
 
 class NodeSums {
@@ -48,7 +49,8 @@ class NodeSums {
       const std::array<double, size> parts = parts_of(corners<size>(mesh_, block, e));
       double volume = 0;
       for (const double part : parts) volume += part;
-      check_volume(volume, block, slice_.elements[elements_++], file_);
+      const std::int64_t element = slice_.elements[elements_++];
+      check_volume(volume, block, element, file_);
       for (std::size_t n = 0; n < size; ++n) {
         NodeSum& sum = sums_[block.nodes[e * size + n]];
         sum.volume += parts[n];
@@ -56,6 +58,7 @@ class NodeSums {
         ++sum.elements;
         if (sum.block < 0) sum.block = index;
         if (sum.block != index) sum.taken.emplace_back(index, parts[n]);
+        if (sum.numbers.empty() || sum.numbers.back() != element) sum.numbers.push_back(element);
       }
     }
   }
@@ -67,16 +70,14 @@ class NodeSums {
   std::size_t elements_ = 0;  // processed so far
 };
 
-// The cell of each node, made of parts of the elements around it, and the numbers of these elements.
+// The cell of each node, made of parts of the elements around it.
 class Cells {
  public:
   Cells(const MeshSlice& slice, const std::vector<Mirror>& planes)
-      : slice_(slice),
-        mesh_(slice.mesh),
+      : mesh_(slice.mesh),
         integrals_(slice.nodes.size()),
         surface_(slice.nodes.size(), Vector::Zero()),
-        surface_moments_(slice.nodes.size(), Tensor::Zero()),
-        shared_nodes_(slice.nodes.size()) {
+        surface_moments_(slice.nodes.size(), Tensor::Zero()) {
     for (const Mesh::Block& block : mesh_.blocks) {
       if (block.type == "HEX8") add_block<8>(block, hexahedron_pieces);
       if (block.type == "TET4") add_block<4>(block, tetrahedron_pieces);
@@ -106,32 +107,22 @@ class Cells {
     if (const auto found = on_planes_.find(node); found != on_planes_.end()) {
       for (FaceOnPlanes& face : found->second) face.point = cloud.shapes.size() - 1, add_face(face, cloud, apart);
     }
-    cloud.shared_nodes.push_back(std::move(shared_nodes_[node]));
   }
 
  private:
   template <std::size_t size, class Pieces>
   void add_block(const Mesh::Block& block, const Pieces& pieces_of) {
-    for (std::size_t e = 0; e < block.elements(); ++e, ++elements_) {
+    for (std::size_t e = 0; e < block.elements(); ++e) {
       const std::array<Integrals, size> pieces = pieces_of(corners<size>(mesh_, block, e));
-      for (std::size_t n = 0; n < size; ++n) {
-        const int node = block.nodes[e * size + n];
-        integrals_[node] += pieces[n];
-        std::vector<std::int64_t>& shared_nodes = shared_nodes_[node];
-        const std::int64_t element = slice_.elements[elements_];
-        if (shared_nodes.empty() || shared_nodes.back() != element) shared_nodes.push_back(element);
-      }
+      for (std::size_t n = 0; n < size; ++n) integrals_[block.nodes[e * size + n]] += pieces[n];
     }
   }
 
-  const MeshSlice& slice_;
   const Mesh& mesh_;
   std::vector<Integrals> integrals_;
   std::vector<Vector> surface_;
   std::vector<Tensor> surface_moments_;
   std::map<std::size_t, std::vector<FaceOnPlanes>> on_planes_;  // by node: parts of faces
-  std::vector<std::vector<std::int64_t>> shared_nodes_;
-  std::size_t elements_ = 0;  // processed so far
 };
 
 void check_parts(double volume, std::int64_t number, const std::string& file) {
@@ -166,7 +157,7 @@ PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const s
                            const std::string& file, bool with_cells, const std::vector<Mirror>& planes,
                            FacesOnPlanes* apart) {
   check_corners(slice, file);
-  const std::vector<NodeSum> sums = NodeSums(slice, file).gatherv();
+  std::vector<NodeSum> sums = NodeSums(slice, file).gatherv();
   std::optional<Cells> cells;
   if (with_cells) cells.emplace(slice, planes);
   PointCloud cloud;
@@ -176,7 +167,7 @@ PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const s
   cloud.taken_volumes.assign(cloud.block_names.size() * cloud.block_names.size(), 0);
   for (std::size_t n = 0; n < sums.size(); ++n) {
     if (slice.nodes[n] < own.begin || slice.nodes[n] >= own.end) continue;
-    const NodeSum& sum = sums[n];
+    NodeSum& sum = sums[n];
     const std::int64_t number = numbers[static_cast<std::size_t>(slice.nodes[n] - own.begin)];
     check_parts(sum.volume, number, file);
     if (with_cells) {
@@ -193,6 +184,7 @@ PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const s
     cloud.spacings.push_back(std::cbrt(sum.around / sum.elements));
     cloud.blocks.push_back(sum.block);
     cloud.sets.push_back(slice.sets[n]);
+    cloud.shared_nodes.push_back(std::move(sum.numbers));
   }
   return cloud;
 }

@@ -178,7 +178,7 @@ TEST(Overlaps, OfElementsAreToldAtNodes) {
   parts.points = "Nodes";
   EXPECT_NE(told_of_two({4, 4, 6}, {0.5e-3, 0, 0}, parts).find("do not fit the lattice"), std::string::npos);
   EXPECT_NE(told_of_two({8, 8, 8}, Vector::Constant(0.5e-3), parts).find("times as much material"), std::string::npos);
-  EXPECT_EQ(told_of_two({4, 4, 6}, {0, 0, 7e-3}, parts).find("WARNING"), std::string::npos);
+  EXPECT_EQ(told_of_two({4, 4, 6}, {0, 0, 8.1e-3}, parts).find("WARNING"), std::string::npos);
 }
 
 // Where no family is full, its volume does not tell.
@@ -250,6 +250,18 @@ TEST(Contact, OfBondedPartsOfABlockIsTold) {
   }
 }
 
+// Nodes on both sides of a gap of a cell are layers of a lattice: elements tell that nothing is between them.
+TEST(Contact, OfBondedPartsIsToldAtNodes) {
+  const std::string bonded = "that share no node are bonded to each other by ";
+  for (const std::string& contact : {std::string(), with_anything()}) {
+    Parts parts;
+    parts.points = "Nodes", parts.contact = contact;
+    for (const double gap : {0.3e-3, 1e-3})
+      EXPECT_NE(told_of_two({4, 4, 4}, {0, 0, 4e-3 + gap}, parts).find(bonded), std::string::npos) << gap;
+    EXPECT_EQ(told_of_two({4, 4, 4}, {0, 0, 6.1e-3}, parts).find(bonded), std::string::npos);
+  }
+}
+
 TEST(Contact, OfBondedBlocksIsToldWhereTheGapIsSmall) {
   const auto told = [](double gap, bool merged) {
     const RunFolder folder;
@@ -277,18 +289,23 @@ TEST(Contact, OfBondedBlocksIsToldWhereTheGapIsSmall) {
 // No contact is declared: blocks of 4 mm with a gap of half a cell would be one body; those that touch are meant to be
 // one, and those 2 mm apart are two.
 TEST(Contact, OfBlocksThatAreBondedAcrossAGapIsAskedFor) {
-  const auto told = [](double apart) {
+  const auto told = [](double apart, const std::string& contact) {
     const RunFolder folder;
     Parts parts;
     parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+    parts.contact = contact;
     parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3"));
     folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 4, 1e-3) + cubes(2, {0, 0, apart}, 4, 4, 4, 1e-3));
     return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world)
-        .warnings.find("are bonded to each other across the gap between them");
+        .warnings.find(contact.empty() ? "are bonded to each other across the gap between them"
+                                       : "are bonded to each other by");
   };
-  EXPECT_NE(told(4.5e-3), std::string::npos);
-  EXPECT_EQ(told(4e-3), std::string::npos);
-  EXPECT_EQ(told(6e-3), std::string::npos);
+  EXPECT_NE(told(4.5e-3, ""), std::string::npos);
+  EXPECT_NE(told(4.2e-3, with_anything()), std::string::npos);
+  for (const std::string& contact : {std::string(), with_anything()}) {
+    EXPECT_EQ(told(4e-3, contact), std::string::npos);
+    EXPECT_EQ(told(6e-3, contact), std::string::npos);
+  }
 }
 
 // Two lattices of unequal spacings on each other: ranks that have one of them each find the same parts.
@@ -342,6 +359,7 @@ TEST(Contact, OfCellsThatAreNoCubesIsToldWhereThereIsAGap) {
     return told_of_stacks(edges, apart, points, merged, one_block).find(bonded) != std::string::npos;
   };
   EXPECT_FALSE(told(tall, Vector::Zero(), "Nodes", true, false));
+  EXPECT_TRUE(told(cube, {0, 0, 5e-3}, "Nodes", false, false));
   for (const bool one_block : {false, true}) {
     EXPECT_FALSE(told(tall, {0, 0, 8e-3}, "Elements", false, one_block));
     EXPECT_TRUE(told(tall, {0, 0, 8.2e-3}, "Elements", false, one_block));
@@ -360,6 +378,28 @@ TEST(Overlaps, OfSeparateBodiesAreTold) {
   for (const double apart : {4.99e-3, 5e-3}) {
     EXPECT_EQ(warnings(apart, true, "").find("inside of the other one"), std::string::npos) << apart;
   }
+}
+
+// Contact by surfaces takes away what bodies overlap by at the start, less than a spacing here.
+TEST(Overlaps, OfSurfacesAreTold) {
+  const auto told = [](double overlap) {
+    const RunFolder folder;
+    folder.write("points.txt",
+                 cubes(1, Vector::Zero(), 6, 6, 6, 1e-3) + cubes(2, {0, 0, 6e-3 - overlap}, 6, 6, 6, 1e-3));
+    Parts parts = thrown_block(section("Models", section("m", key("Contact Model", "Surface"))) +
+                               section("Interactions", section("General Contact", key("Contact Model", "m"))));
+    parts.blocks.clear();
+    for (const std::string block : {"block_1", "block_2"}) {
+      parts.blocks += section(block, key("Block Names", block) + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                         key("Separate Body", "true"));
+    }
+    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+  };
+  // Known to a tenth: the density of the other body is no straight line over the distance.
+  EXPECT_NE(told(0.3e-3).find("blocks 'block_1' and 'block_2' overlap by up to about 0.3"), std::string::npos)
+      << told(0.3e-3);
+  EXPECT_NE(told(0.7e-3).find("blocks 'block_1' and 'block_2' overlap by up to about 0."), std::string::npos);
+  for (const double overlap : {0.0, -0.3e-3}) EXPECT_EQ(told(overlap).find("overlap by"), std::string::npos);
 }
 
 TEST(Overlaps, AreThoseOfTheStart) {

@@ -140,29 +140,35 @@ TEST(Nodes, ThatBlocksOfTwoDensitiesShareAreToldOf) {
 }
 
 // The bar has half a layer of the plate's two, of 16e-9 m³ each: 8e-9 of 96e-9 m³.
-TEST(Nodes, ThatBlocksOfTwoModuliShareAreToldOf) {
+TEST(Nodes, ThatUnlikeBlocksShareAreToldOf) {
   const RunFolder folder(Lattice{.nz = 6, .plate_layers = 2});
-  const auto warnings = [&folder](const std::string& shear, const std::string& points) {
+  const auto warnings = [&folder](const std::string& material, const std::string& points,
+                                  const std::string& of_plate = "") {
     Parts parts;
     parts.points = points;
-    parts.materials += changed(changed(copper(), "copper", "soft"), "117e9", shear);
-    parts.blocks.clear();
-    for (const auto& [block, material] : {std::pair("bar", "copper"), {"plate", "soft"}}) {
-      parts.blocks +=
-          section(block, key("Block Names", block) + key("Material", material) + key("Horizon Factor", "1.8"));
-    }
+    parts.materials += changed(changed(copper(), "copper", "soft"), "117e9", "20e9");
+    parts.materials += changed(copper(), "copper", "other");
+    parts.blocks =
+        section("bar", key("Block Names", "bar") + key("Material", "copper") + key("Horizon Factor", "1.8")) +
+        section("plate",
+                key("Block Names", "plate") + key("Material", material) + key("Horizon Factor", "1.8") + of_plate);
     parts.conditions = along("flight", "Initial Velocity", "plate", "z", "1");
     return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
   };
-  const std::string stiffness = "8.3 % of the elements' volume has the stiffness of another block",
+  const std::string unlike = "8.3 % of the elements' volume has the material, damage model or initial temperature of",
                     condition =
                         "Boundary Conditions > flight acts on 2.4e-08 m³, and the elements of block 'plate' "
                         "have 3.2e-08 m³";
-  const std::string soft = warnings("20e9", "Nodes"), alike = warnings("117e9", "Nodes");
-  EXPECT_NE(soft.find(stiffness), std::string::npos) << soft;
+  const std::string soft = warnings("soft", "Nodes"), alike = warnings("copper", "Nodes");
+  EXPECT_NE(soft.find(unlike), std::string::npos) << soft;
+  EXPECT_NE(warnings("other", "Nodes").find(unlike), std::string::npos) << "whatever they differ in";
   EXPECT_NE(alike.find(condition), std::string::npos) << alike;
-  EXPECT_EQ(alike.find("stiffness of another"), std::string::npos) << alike;
-  EXPECT_EQ(warnings("20e9", "Elements").find("stands first in the mesh"), std::string::npos);
+  EXPECT_EQ(alike.find("of the elements' volume"), std::string::npos) << alike;
+  EXPECT_EQ(warnings("soft", "Elements").find("stands first in the mesh"), std::string::npos);
+  const std::string separate = key("Separate Body", "true"), bodies = "are separate bodies that share nodes";
+  EXPECT_NE(warnings("copper", "Nodes", separate).find(bodies), std::string::npos);
+  EXPECT_EQ(warnings("copper", "Elements", separate).find(bodies), std::string::npos);
+  EXPECT_EQ(alike.find(bodies), std::string::npos);
 }
 
 }  // namespace

@@ -586,12 +586,23 @@ class Runs(InFolder):
         for _ in range(2):  # its own are replaced
             self.made("block.xml")
 
+    def test_a_history_that_ends_early_is_told(self):
+        columns = {"Time": STRAIN, "Reaction_Z(top)": stress_at(STRAIN)}
+        solver = '<ParameterList name="Solver"><Parameter name="Final Time" type="double" value="{}"/></ParameterList></ParameterList>\n'
+        for end, cut, said in ((2 * STRAIN[-1], "", f"ends at t = {STRAIN[-1]:g} s, 50 % of the run to {2 * STRAIN[-1]:g} s"),
+                               (STRAIN[-1], "0.9,1", "its last row is not whole, and left out"), (STRAIN[-1], "", "")):
+            (self.folder / "block.xml").write_text(DECK.rpartition("</ParameterList>")[0] + solver.format(end))
+            self.history(columns, cut)
+            told = [line for line in self.curve("block.xml").stdout.splitlines() if line.startswith("history")]
+            self.assertEqual([said in line for line in told], [True] if said else [])
+
     def test_errors_are_one_line_that_helps(self):
         columns = {"Time": STRAIN, "Reaction_Z(top)": stress_at(STRAIN)}
         self.assertIn("block.csv does not exist: --results names", self.error("block.xml"))
         self.history({"Time": STRAIN, "Max_Displacement": STRAIN})
         self.assertIn("has no force along z: add e.g. Reaction_Z(top)", self.error("block.xml"))
         self.history(columns)
+        self.assertIn("the folder block.csv cannot be made: a file has its name", self.error("block.xml", "block.csv"))
         self.assertIn("no column 'Reaction_Z(tp)' in the history (did you mean 'Reaction_Z(top)'?)",
                       self.error("block.xml", "--force", "Reaction_Z(tp)"))
         self.assertIn("name --area (m2) and --height (m)", self.error("block.csv"))

@@ -4,12 +4,13 @@ color that the scale gives to its value?"""
 import contextlib
 import io
 import os
+import subprocess
 import sys
 import unittest
 import unittest.mock
 import xml.etree.ElementTree as tree
 
-from tool_test import InFolder
+from tool_test import TOOLS, InFolder
 
 import matplotlib.image
 import netCDF4
@@ -144,6 +145,16 @@ class Pictures(InFolder):
         self.assertEqual((self.folder / "bar.e").read_bytes(), before)
         self.assertGreater((self.folder / "pictures/h-energies.png").stat().st_size, 5000)
         self.made("h.csv", "pictures/")  # once more, over its own
+
+    def test_a_full_disk_leaves_an_earlier_picture(self):
+        (self.folder / "h.csv").write_text("Time,Kinetic_Energy,Balance_Error\n0,1,0\n1,2,0\n")
+        self.made("h.csv", "h.png")
+        before = (self.folder / "h.png").read_bytes()
+        small = f"ulimit -f 4; exec '{TOOLS / 'picture'}' h.csv h.png"  # kB
+        done = subprocess.run(["bash", "-c", small], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (1, "tools/picture: h.png cannot be written: File too large\n"))
+        self.assertEqual((self.folder / "h.png").read_bytes(), before)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["h.csv", "h.png"])
 
     def test_a_folder_keeps_a_picture_that_somebody_else_has_made(self):
         (self.folder / "h.csv").write_text("Time,Kinetic_Energy,Balance_Error\n0,1,0\n1,2,0\n")
