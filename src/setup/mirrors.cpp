@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -322,11 +323,12 @@ std::vector<CellFace> faces_on(const Mirror& plane, const std::vector<BlockBonds
 }
 
 // Collective. Those of all ranks; not many, as they are of one side.
-std::vector<CellFace> of_all_ranks(const std::vector<CellFace>& mine, const Communicator& communicator) {
-  std::vector<CellFace> leaving;
+template <class One>
+std::vector<One> of_all_ranks(const std::vector<One>& mine, const Communicator& communicator) {
+  std::vector<One> leaving;
   for (int rank = 0; rank < communicator.size(); ++rank) std::ranges::copy(mine, std::back_inserter(leaving));
   const std::vector<std::int64_t> to(communicator.size(), std::ssize(mine)), from = counts_from_ranks(communicator, to);
-  return exchange<CellFace>(communicator, leaving, to, from);
+  return exchange<One>(communicator, leaving, to, from);
 }
 
 // Collective. True if the faces of cells on a plane are counted as surface: the mesh was cut there. Of lattices and
@@ -355,6 +357,31 @@ void take_off(const Mirror& plane, const std::vector<CellFace>& faces,
   }
 }
 
+// Collective. Marks the shared nodes on a plane to which the filling of no element reaches: there the void goes on
+// behind the plane, and an element has no bond to its image.
+void mark_void(const Mirror& plane, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
+               PointCloud& cloud) {
+  const auto is_on = [&](std::int64_t node) { return (node >> (first_plane_bit + plane.bit) & 1) != 0; };
+  const auto over_nodes = [&](const auto& visit) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (bonds[cloud.blocks[i]].body != plane.body) continue;
+      for (std::int64_t& node : cloud.shared_nodes[i]) {
+        if (is_on(node)) visit(i, node);
+      }
+    }
+  };
+  std::vector<std::int64_t> reached;
+  over_nodes([&](std::size_t i, std::int64_t node) {
+    if (is_whole(cloud, i) || distance_in_extents(cloud, plane, i) <= farthest_of_nearest) reached.push_back(node);
+  });
+  const std::vector<std::int64_t> all = of_all_ranks(reached, communicator);
+  const std::set<std::int64_t> filled(all.begin(), all.end());
+  over_nodes([&](std::size_t, std::int64_t& node) {
+    if (!filled.contains(node)) node |= std::int64_t{1} << (first_void_bit + plane.bit);
+  });
+  for (std::vector<std::int64_t>& nodes : cloud.shared_nodes) std::ranges::sort(nodes);
+}
+
 }  // namespace
 
 void take_off_cuts(const deck::Deck& deck, const Communicator& communicator, PointCloud& cloud) {
@@ -364,6 +391,7 @@ void take_off_cuts(const deck::Deck& deck, const Communicator& communicator, Poi
   for (const Mirror& plane : mirrors(deck, cloud, communicator).planes) {
     const std::vector<CellFace> faces = faces_on(plane, bonds, cloud);
     if (cuts(faces, communicator)) take_off(plane, faces, nullptr, cloud);
+    mark_void(plane, bonds, communicator, cloud);
   }
   const std::vector<Mirror> sides = sides_of_periods(deck);  // a lower and an upper one in turn
   for (std::size_t s = 0; s < sides.size(); ++s) {
