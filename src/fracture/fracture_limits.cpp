@@ -128,9 +128,10 @@ void Fracture::serialize_steps(Archive& archive) {
   archive.rank_sum("breaks_in_steps_speed2", in_steps_.speed2);
 }
 
-// The limit of a point's steepness is `steepness_of_corners` times the least in its block, which is that of an interior
-// point; both are compared in spacings and for whole cells. So families with broken bonds do not reduce the critical
-// time step below that of corners. A point that is steeper from the start may grow by half.
+// The limit of a point's steepness is `steepness_of_corners` times the least in the blocks of its body that are of its
+// formulation, which is that of an interior point, however the body is cut in blocks; both are compared in spacings and
+// for whole cells. So families with broken bonds do not reduce the critical time step below that of corners. A point
+// that is steeper from the start may grow by half.
 void Fracture::set_most_steepness(const Body& body) {
   constexpr double more_than_first = 1.5;
   const auto per_steepness = [&body](int i) {
@@ -144,6 +145,14 @@ void Fracture::set_most_steepness(const Body& body) {
     least.push_back(most);
   }
   body.domain.communicator.max(least);
+  const std::vector<double> of_blocks = least;
+  for (std::size_t a = 0; a < least.size(); ++a) {
+    for (std::size_t b = 0; b < least.size(); ++b) {
+      const bool are_alike = body.domain.blocks[a].body == body.domain.blocks[b].body &&
+                             body.blocks[a].material.formulation == body.blocks[b].material.formulation;
+      if (are_alike) least[a] = std::max(least[a], of_blocks[b]);
+    }
+  }
   for (int i = 0; i < body.owned(); ++i) {
     const double of_block = -steepness_of_corners * least[body.domain.cloud.blocks[i]] / per_steepness(i);
     most_steepness_.push_back(std::max(of_block, more_than_first * steepness(body, i)));

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -24,6 +25,21 @@ namespace {
 // Distance from the plane to the point of a cell at it, over the extent of the cell beyond its point along the normal:
 // 1 for a hexahedron, 0.75 for a tetrahedron with a face on the plane, 2.2 with a corner; 3 one layer behind.
 constexpr double nearest = 0.5, farthest_of_nearest = 1.5, farthest = 2.6;
+
+double distance_in_extents(const PointCloud& cloud, const Mirror& plane, std::size_t i) {
+  return std::abs(plane.distance(cloud.positions[i])) /
+         reach_of_cell(cloud, cloud.volumes[i], static_cast<int>(i), plane.normal);
+}
+
+bool is_whole(const PointCloud& cloud, std::size_t i) {
+  const double whole = std::pow(cloud.spacings[i], 3);
+  return std::abs(cloud.volumes[i] - whole) < 1e-6 * whole;
+}
+
+bool has_node_on(const Mirror& plane, const PointCloud& cloud, std::size_t i) {
+  const auto is_on = [&](std::int64_t node) { return (node >> (first_plane_bit + plane.bit) & 1) != 0; };
+  return !cloud.shared_nodes.empty() && std::ranges::any_of(cloud.shared_nodes[i], is_on);
+}
 
 // Statistics of the points of a body relative to a plane.
 struct Place {
@@ -58,7 +74,9 @@ class PlaneSearch {
     found = {sums[0], sums[1], sums[2], sums[3], sums[4], -most[0], most[1], most[2], sums[5], sums[6], most[3]};
     const double mean = found.in_set > 0 ? found.distances / found.in_set : 0;
     double free = 0;
-    over_body([&](std::size_t i) { free += !is_in(cloud_, set_, i) && distance(i) <= mean + on_plane ? 1 : 0; });
+    over_body([&](std::size_t i) {
+      free += !is_in(cloud_, set_, i) && is_at_plane(i) && distance(i) <= mean + on_plane ? 1 : 0;
+    });
     found.free = communicator_.sum(free);
     return found;
   }
@@ -70,11 +88,13 @@ class PlaneSearch {
       if (bonds_[cloud_.blocks[i]].body == plane_.body) visit(i);
     }
   }
-  // A node's in spacings, an element's in units of the extent of its cell.
+  // A node's in spacings, an element's in units of the extent of its cell. A partly filled element at the plane stays
+  // one if it is filled at its far side only.
   double distance(std::size_t i) const {
-    const double in_m = std::abs(plane_.distance(cloud_.positions[i]));
-    if (cloud_.at == PointsAt::nodes) return in_m / cloud_.spacings[i];
-    return in_m / reach_of_cell(cloud_, cloud_.volumes[i], static_cast<int>(i), plane_.normal);
+    if (cloud_.at == PointsAt::nodes) return std::abs(plane_.distance(cloud_.positions[i])) / cloud_.spacings[i];
+    const double in_extents = distance_in_extents(cloud_, plane_, i);
+    const bool may_end_before = !is_whole(cloud_, i) && has_node_on(plane_, cloud_, i);
+    return may_end_before ? std::clamp(in_extents, nearest, farthest_of_nearest) : in_extents;
   }
   void classify(std::size_t i, Place& found) const {
     const double signed_distance = plane_.distance(cloud_.positions[i]);
@@ -87,22 +107,25 @@ class PlaneSearch {
     ++found.in_set;
     found.distances += here;
     found.least = std::min(found.least, here), found.most = std::max(found.most, here);
-    found.most_m = std::max(found.most_m, std::abs(signed_distance));
+    if (cloud_.at == PointsAt::nodes || here > farthest_of_nearest)
+      found.most_m = std::max(found.most_m, std::abs(signed_distance));
     if (cloud_.shapes.empty() || cloud_.at == PointsAt::nodes) return;
     if (here < farthest_of_nearest) look_for_nodes(i, found);
+  }
+  // False for a partly filled element behind those at the plane that a small one at it was merged into.
+  bool is_at_plane(std::size_t i) const {
+    return cloud_.at == PointsAt::nodes || is_whole(cloud_, i) || has_node_on(plane_, cloud_, i);
   }
   // Partly filled elements may be cut by the plane, if their bonds need no common nodes.
   void look_for_nodes(std::size_t i, Place& found) const {
     const BlockBonds& block = bonds_[cloud_.blocks[i]];
-    const double whole = std::pow(cloud_.spacings[i], 3);
-    const bool is_whole = std::abs(cloud_.volumes[i] - whole) < 1e-6 * whole;
-    const auto is_on = [&](std::int64_t node) { return (node >> (first_plane_bit + plane_.bit) & 1) != 0; };
-    const std::vector<std::int64_t>& nodes = cloud_.shared_nodes[i];
-    if (!(is_whole || block.visible_only || block.touching) || nodes.empty() || std::ranges::any_of(nodes, is_on))
+    const bool whole = is_whole(cloud_, i);
+    if (!(whole || block.visible_only || block.touching) || cloud_.shared_nodes[i].empty() ||
+        has_node_on(plane_, cloud_, i))
       return;
     ++found.apart;
     const double reach = reach_of_cell(cloud_, cloud_.volumes[i], static_cast<int>(i), plane_.normal);
-    if (is_whole) found.gap = std::max(found.gap, std::abs(std::abs(plane_.distance(cloud_.positions[i])) - reach));
+    if (whole) found.gap = std::max(found.gap, std::abs(std::abs(plane_.distance(cloud_.positions[i])) - reach));
   }
 
   const PointCloud& cloud_;
@@ -277,13 +300,15 @@ void estimate(const Mirror& plane, const PointCloud& cloud, CellFace& face) {
   face.uncounted = (volume - moment - 0.5 * h * facing) / h;
 }
 
-// The faces of this rank's hexahedra that are bodies' ends at a plane or side. Periodic sides are of all bodies.
+// The faces of this rank's hexahedra that are bodies' ends at a plane or side, as far as their filling reaches it.
+// Periodic sides are of all bodies.
 std::vector<CellFace> faces_on(const Mirror& plane, const std::vector<BlockBonds>& bonds, const PointCloud& cloud) {
   const bool is_lower = plane.period > 0 && plane.normal.sum() > 0;
   const int bit = first_plane_bit + plane.bit + (is_lower ? lower_side : 0);
   std::vector<CellFace> faces;
   for (int i = 0; i < std::ssize(cloud.shapes); ++i) {
     if (plane.period == 0 && bonds[cloud.blocks[i]].body != plane.body) continue;
+    if (distance_in_extents(cloud, plane, i) > farthest_of_nearest) continue;
     CellFace face{.nodes = {}, .point = i, .filled = 0, .uncounted = 0};
     std::size_t count = 0;
     for (const std::int64_t node : cloud.shared_nodes[i]) {
@@ -298,11 +323,12 @@ std::vector<CellFace> faces_on(const Mirror& plane, const std::vector<BlockBonds
 }
 
 // Collective. Those of all ranks; not many, as they are of one side.
-std::vector<CellFace> of_all_ranks(const std::vector<CellFace>& mine, const Communicator& communicator) {
-  std::vector<CellFace> leaving;
+template <class One>
+std::vector<One> of_all_ranks(const std::vector<One>& mine, const Communicator& communicator) {
+  std::vector<One> leaving;
   for (int rank = 0; rank < communicator.size(); ++rank) std::ranges::copy(mine, std::back_inserter(leaving));
   const std::vector<std::int64_t> to(communicator.size(), std::ssize(mine)), from = counts_from_ranks(communicator, to);
-  return exchange<CellFace>(communicator, leaving, to, from);
+  return exchange<One>(communicator, leaving, to, from);
 }
 
 // Collective. True if the faces of cells on a plane are counted as surface: the mesh was cut there. Of lattices and
@@ -331,6 +357,31 @@ void take_off(const Mirror& plane, const std::vector<CellFace>& faces,
   }
 }
 
+// Collective. Marks the shared nodes on a plane to which the filling of no element reaches: there the void goes on
+// behind the plane, and an element has no bond to its image.
+void mark_void(const Mirror& plane, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
+               PointCloud& cloud) {
+  const auto is_on = [&](std::int64_t node) { return (node >> (first_plane_bit + plane.bit) & 1) != 0; };
+  const auto over_nodes = [&](const auto& visit) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (bonds[cloud.blocks[i]].body != plane.body) continue;
+      for (std::int64_t& node : cloud.shared_nodes[i]) {
+        if (is_on(node)) visit(i, node);
+      }
+    }
+  };
+  std::vector<std::int64_t> reached;
+  over_nodes([&](std::size_t i, std::int64_t node) {
+    if (is_whole(cloud, i) || distance_in_extents(cloud, plane, i) <= farthest_of_nearest) reached.push_back(node);
+  });
+  const std::vector<std::int64_t> all = of_all_ranks(reached, communicator);
+  const std::set<std::int64_t> filled(all.begin(), all.end());
+  over_nodes([&](std::size_t, std::int64_t& node) {
+    if (!filled.contains(node)) node |= std::int64_t{1} << (first_void_bit + plane.bit);
+  });
+  for (std::vector<std::int64_t>& nodes : cloud.shared_nodes) std::ranges::sort(nodes);
+}
+
 }  // namespace
 
 void take_off_cuts(const deck::Deck& deck, const Communicator& communicator, PointCloud& cloud) {
@@ -340,6 +391,7 @@ void take_off_cuts(const deck::Deck& deck, const Communicator& communicator, Poi
   for (const Mirror& plane : mirrors(deck, cloud, communicator).planes) {
     const std::vector<CellFace> faces = faces_on(plane, bonds, cloud);
     if (cuts(faces, communicator)) take_off(plane, faces, nullptr, cloud);
+    mark_void(plane, bonds, communicator, cloud);
   }
   const std::vector<Mirror> sides = sides_of_periods(deck);  // a lower and an upper one in turn
   for (std::size_t s = 0; s < sides.size(); ++s) {

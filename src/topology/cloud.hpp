@@ -41,7 +41,7 @@ inline CellShape shape_of(const ShapeNumbers& numbers) {
           Eigen::Map<const Vector>(numbers.data() + 9), Eigen::Map<const Tensor>(numbers.data() + 12)};
 }
 
-constexpr int first_plane_bit = 48, most_planes = 15;
+constexpr int first_void_bit = 34, first_plane_bit = 48, most_planes = 14;
 
 struct PointCloud {
   // One entry per point.
@@ -56,7 +56,8 @@ struct PointCloud {
   std::vector<CellShape> shapes;
   // Shared nodes: numbers that a point has in common with the points that it touches, ascending. They are the nodes of
   // an element, or the elements around a node. Two points touch if they have one of these numbers in common. Bits from
-  // first_plane_bit on: the symmetry planes or periodic sides that a node lies on (shared_node_at).
+  // first_plane_bit on: the symmetry planes or periodic sides that a node lies on (shared_node_at). Bits from
+  // first_void_bit on, for planes alone: that no element is filled there up to the plane.
   std::vector<std::vector<std::int64_t>> shared_nodes;
 
   // The same on all ranks.

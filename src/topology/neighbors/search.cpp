@@ -58,7 +58,7 @@ class SharedNodes {
     const int body = bonds_[cloud_.blocks[i]].body;
     const bool is_mirrored = !mirrored_.images.of_body(body).empty();
     for (const std::int64_t shared_node : cloud_.shared_nodes[i]) {
-      const std::int64_t number = shared_node & ((std::int64_t{1} << first_plane_bit) - 1);
+      const std::int64_t number = shared_node & ((std::int64_t{1} << Images::bits) - 1);
       if (!mirrored_.periods.empty()) {
         visit(Images::id(number, cell_of(shared_node >> first_plane_bit, image)));
       } else if (!is_mirrored) {
@@ -67,7 +67,7 @@ class SharedNodes {
         for_each_image_at(body, cloud_.positions[i], cloud_.spacings[i], image,
                           [&](int one) { visit(Images::id(number, one)); });
       } else {
-        visit(Images::id(number, first_image(body, shared_node >> first_plane_bit, image)));
+        visit(Images::id(number, first_image(body, filled_planes(shared_node), image)));
       }
     }
   }
@@ -92,6 +92,11 @@ class SharedNodes {
       number = 16 * number + n + static_cast<int>(upper >> period.axis & 1) + 8;
     }
     return number;
+  }
+  // The bits of the planes at a shared node behind which there is no void.
+  static std::int64_t filled_planes(std::int64_t shared_node) {
+    const std::int64_t of_voids = shared_node & ((std::int64_t{1} << first_plane_bit) - 1);
+    return (shared_node >> first_plane_bit) & ~(of_voids >> Images::bits << (Images::bits - first_void_bit));
   }
   // The first of the images that differ from `image` by reflections at some planes.
   int first_image(int body, std::int64_t planes, int image) const {

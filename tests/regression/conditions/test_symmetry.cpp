@@ -346,6 +346,47 @@ TEST(Symmetry, IsThatOfAPlaneThatMissesItsNodesByRoundOff) {
   }
 }
 
+// Foams cut by a plane have cells at it that are filled at their far side only, and cells behind these into which small
+// ones at the plane were merged. The face of the former towards the plane is surface, and across the void, where no
+// cell is filled up to the plane, are no bonds.
+TEST(Symmetry, IsThatOfCellsFilledAtTheirFarSide) {
+  const RunFolder folder;
+  const auto bonds = [&folder](double x_of_void, const std::string& formulation) {
+    io::Mesh mesh = Lattice{}.mesh();
+    io::Mesh::Block& bar = mesh.blocks[0];
+    for (std::size_t e = 0; e < bar.elements(); ++e) {
+      const Vector middle = 0.5 * (mesh.nodes[bar.nodes[8 * e]] + mesh.nodes[bar.nodes[8 * e + 6]]);
+      const bool at_plane = middle[2] < h, far = at_plane && middle[0] < x_of_void, merged = e == 31;
+      const double below = far ? 0.7 * h : merged ? 0.1 * h : middle[2] - 0.5 * h, above = middle[2] + 0.5 * h;
+      io::PartialCell cell{.volume = merged ? 0.9 * h * h * h : h * h * (above - below), .centroid = middle};
+      cell.centroid[2] = 0.5 * (below + above);
+      cell.moments << h * h / 12, h * h / 12, (above - below) * (above - below) / 12, 0, 0, 0;
+      if (at_plane) {
+        cell.surface[2] = -h * h;
+        cell.surface_moments(2, 2) = 0.5 * h * h * (above - below);
+      }
+      bar.cells.push_back(cell);
+    }
+    run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+    Parts parts;
+    parts.materials = material("Elastic Correspondence", key("Formulation", formulation));
+    parts.conditions = plane("p", "Symmetry Plane", "foot", "0 0 0", "0 0 1");
+    const Simulation run(folder, parts);
+    EXPECT_EQ(run.scene.body.domain.mirrors.size(), 1);
+    EXPECT_EQ(run.advice.warnings.find("> p:"), std::string::npos) << run.advice.warnings;
+    double surface = 0;  // m²
+    for (int i = 0; i < run.scene.body.owned(); ++i) {
+      if (run.reference(i)[2] < h) surface -= run.scene.body.domain.cloud.shapes[i].surface[2];
+    }
+    EXPECT_NEAR(run.world().sum(surface), 4 * h * x_of_void, 1e-9 * h * h);  // round-off
+    return run.world().sum(static_cast<std::int64_t>(run.scene.body.domain.families.bonds()));
+  };
+  bonds(2 * h, "Correspondence");
+  const std::string quadratic = "Quadratic Correspondence";
+  // From column 0 to the images of columns 0 and 1, and from 1 to those of 0: 10 each, as common nodes are in the void.
+  EXPECT_EQ(bonds(0, quadratic) - bonds(2 * h, quadratic), 30);
+}
+
 // Faces on a plane are surface unless the body that they are of goes on behind it: the plane of a block is plane
 // strain, as that of `all`, and a plate beside a bar that goes on ends there.
 TEST(Symmetry, TakesFacesFromTheSurfaceOnlyWhereImagesAre) {
