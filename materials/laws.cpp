@@ -21,6 +21,10 @@ double bulk_over_shear(const AnyLaw& law) {
   return moduli.bulk / moduli.shear;
 }
 
+bool law_follows_stretch(const AnyLaw& law) {
+  return std::visit([]<class L>(const L&) { return follows_stretch<L>; }, law);
+}
+
 bool shares_volume(const AnyLaw& law) {
   const auto is_told = []<class L>(const L&) {
     return std::is_same_v<L, Elastic> || follows_stretch<L> || (tells_flow<L> && !std::is_same_v<L, UserLaw>);

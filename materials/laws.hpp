@@ -27,6 +27,9 @@ Moduli moduli_of(const AnyLaw& law);
 // K/G of the undeformed solid.
 double bulk_over_shear(const AnyLaw& law);
 
+// True if a law has follows_stretch.
+bool law_follows_stretch(const AnyLaw& law);
+
 // From this K/G on a body in which each cell must keep its volume is much too stiff.
 constexpr double hardly_compressible = 10;
 

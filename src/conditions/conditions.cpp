@@ -89,7 +89,8 @@ Conditions changing_on_parts(const Conditions& conditions, const Body& body) {
   conditions.visit([&]<class T>(const T& one) {
     if constexpr (AddsForces<T> || std::same_as<T, PrescribedMotion>) {
       const std::vector<Function> values = one.values_at_points();
-      if (std::ranges::any_of(values, &Function::depends_on_time) && !are_whole(ranks_without_and_with(one.points, body)))
+      if (std::ranges::any_of(values, &Function::depends_on_time) &&
+          !are_whole(ranks_without_and_with(one.points, body)))
         changing.add(one);
     }
   });

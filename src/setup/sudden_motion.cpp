@@ -260,8 +260,8 @@ struct OverLoadSteps {
 
 // The integral from one time to another as the run finds it, and by sixteen times as many samples, if this differs by
 // more than `reported` of all that the value does: it then has pulses that few samples miss, or turns more often than
-// is looked at. Most values need no `looks` at so many samples, as midpoints, which are quick, find the same.
-std::array<double, 2> two_integrals(const OfTime& of_time, double from, double to, int& looks) {
+// is looked at. Most values need no `checks` at so many samples, as midpoints, which are quick, find the same.
+std::array<double, 2> two_integrals(const OfTime& of_time, double from, double to, int& checks) {
   constexpr double reported = 0.005;
   constexpr int parts = 16, midpoints = 512;
   const std::vector<double> times = telling_times(of_time.value, of_time.X, from, to, midpoints);
@@ -273,7 +273,7 @@ std::array<double, 2> two_integrals(const OfTime& of_time, double from, double t
   if (!std::isfinite(sum)) return {};  // nor is it an error where no point is: the integral stores such values
   const double of_run = time_integral(of_time.value, of_time.X, from, to);
   if (!(std::abs(sum - of_run) > reported * size)) return {};
-  --looks, sum = 0;
+  --checks, sum = 0;
   for (int n = 0; n < parts; ++n) {
     const double begin = std::lerp(from, to, n / double{parts}), end = std::lerp(from, to, (n + 1) / double{parts});
     sum += time_integral(of_time.value, of_time.X, begin, end);
@@ -286,7 +286,7 @@ OverLoadSteps over_load_steps(const Function& value, const Where& where, const d
                               bool rate_counts) {
   constexpr int most_between = 16, most_samples = 100000;  // of a load step and of a run
   constexpr int most_integrals = 300;
-  int looks = 100;  // of many thousand values each
+  int checks = 100;  // of many thousand values each
   const int load_steps = solver.quasi_static->load_steps;
   const int between = std::clamp(most_samples / load_steps, 2, most_between);
   const double start = solver.initial_time, duration = solver.final_time - start;
@@ -304,9 +304,9 @@ OverLoadSteps over_load_steps(const Function& value, const Where& where, const d
         all.push_back(counts == Counts::by_integral ? position : of_time(times[n]) - found.zero);
         if (std::isfinite(all.back())) found.most = std::max(found.most, std::abs(all.back()));
       }
-      if (counts == Counts::by_integral && load_steps <= most_integrals && looks > 0 &&
+      if (counts == Counts::by_integral && load_steps <= most_integrals && checks > 0 &&
           found.displacements[0] == found.displacements[1])
-        found.displacements = two_integrals(of_time, times.front(), times.back(), looks);
+        found.displacements = two_integrals(of_time, times.front(), times.back(), checks);
       found.largest = std::max({found.largest, std::abs(all.front()), std::abs(all.back())});
       take_missed(all, times, rate_counts, found.missed);
     }

@@ -80,7 +80,8 @@ struct Update {
     cells.take(moments(body(), group, after(group)));
     const Lanes step_fraction = step_fractions(body(), group, law.pass.level);
     const Lanes carries = small::where_positive(cells.steepness(), Lanes::Ones(), Lanes::Zero());
-    const Lanes shares = block().shares_volume ? carries : flowed(group);
+    const Lanes has_one_volume = block().shares_volume ? carries : flowed(group);
+    const double resisting = resisting_part(block());
     const CellsOfGroup<L> at(block(), group);
     std::array<Deformed, 4> now;
     for (int q = 0; q < 4; ++q) {
@@ -89,12 +90,12 @@ struct Update {
       now[q] = law.deformed(group, at.numbers(q), F, step_fraction, carries);
     }
     const std::array<Lanes, 4> J{now[0].J, now[1].J, now[2].J, now[3].J};
+    share_traces(J, {&now[0].rates, &now[1].rates, &now[2].rates, &now[3].rates}, has_one_volume, resisting);
     if (materials::follows_stretch<L> && block().shares_volume) {
       set_stress_of_shared_volume(at, step_fraction, now);
     } else {
-      share_traces(J, {&now[0].rates, &now[1].rates, &now[2].rates, &now[3].rates}, shares);
       for (int q = 0; q < 4; ++q) law.set_stress(at.points(q), step_fraction, now[q]);
-      share_traces(J, {&now[0].stress, &now[1].stress, &now[2].stress, &now[3].stress}, shares);
+      share_traces(J, {&now[0].stress, &now[1].stress, &now[2].stress, &now[3].stress}, has_one_volume, resisting);
     }
     law.template count_expansion<4>(group, {&now[0], &now[1], &now[2], &now[3]});
     Lanes stiffest = now[0].stiffness, softest = now[0].stiffness;
@@ -142,7 +143,7 @@ struct Update {
       law.set_stress(at.points(q), step_fraction, shared);
       now[q].stress = shared.stress, now[q].stiffness = shared.stiffness;
     }
-    mean.share({&now[0].stress, &now[1].stress, &now[2].stress, &now[3].stress});
+    mean.distribute({&now[0].stress, &now[1].stress, &now[2].stress, &now[3].stress});
   }
 
   // The records of the next group. In a whole step they lie behind those of this one.

@@ -23,10 +23,17 @@ T kept_part(const T& least, const T& most, const T& mean) {
   return spread * spread;
 }
 
+// By this factor the kept differences of solids that hardly change their volume are smaller, so that they resist as
+// those of a metal do (K = 3 G).
+inline double resisting_part(const MaterialBlock& block) {
+  return block.shares_volume ? 3 / materials::bulk_over_shear(block.material.law) : 1;
+}
+
 // Brings the traces of tensors (rates or stresses) at the integration points of cells near their mean, weighted with J.
-// `where`: 1 for cells that have flowed, 0 for others.
+// `where`: 1 for cells that do so, 0 for others; `resisting`: resisting_part().
 inline void share_traces(const std::array<small::Lanes, 4>& J,
-                         const std::array<small::Symmetric3<small::Lanes>*, 4>& tensors, const small::Lanes& where) {
+                         const std::array<small::Symmetric3<small::Lanes>*, 4>& tensors, const small::Lanes& where,
+                         double resisting = 1) {
   using small::Lanes;
   if (!small::any_positive(where)) return;
   Lanes sum = Lanes::Zero(), volume = Lanes::Zero(), least = J[0], most = J[0];
@@ -35,7 +42,7 @@ inline void share_traces(const std::array<small::Lanes, 4>& J,
     volume += J[q];
     least = least.min(J[q]), most = most.max(J[q]);
   }
-  const Lanes mean = sum / volume, shared = 1 - kept_part<Lanes>(least, most, 0.25 * volume).min(1);
+  const Lanes mean = sum / volume, shared = 1 - (resisting * kept_part<Lanes>(least, most, 0.25 * volume)).min(1);
   for (auto* s : tensors) {
     const Lanes change = shared / 3 * (mean - small::trace(*s));
     for (int c = 0; c < 3; ++c) s->c[c] = small::where_positive(where, s->c[c] + change, s->c[c]);
@@ -64,7 +71,7 @@ class MeanVolume {
   }
 
   // From the law's stresses to those of the integration points.
-  void share(const std::array<small::Symmetric3<Lanes>*, 4>& stresses) const {
+  void distribute(const std::array<small::Symmetric3<Lanes>*, 4>& stresses) const {
     Lanes mean = Lanes::Zero();
     for (const auto* s : stresses) mean += small::trace(*s) / 12;
     for (int q = 0; q < 4; ++q) {
@@ -93,7 +100,7 @@ class SharedVolume {
       volume_ += J_[q];
     }
     const auto [least, most] = std::minmax_element(J_, J_ + 4);
-    shared_ = 1 - std::min(1.0, kept_part(*least, *most, 0.25 * volume_));
+    shared_ = 1 - std::min(1.0, resisting_part(block) * kept_part(*least, *most, 0.25 * volume_));
   }
   void share_gradients(CellTensors& dF) const {
     double rate[4], mean = 0;  // of the volume: F⁻ᵀ : δF
@@ -115,6 +122,63 @@ class SharedVolume {
  private:
   CellTensors F_, inverse_transposed_;
   double J_[4], volume_ = 0, shared_ = 1;
+};
+
+// The derivative of MeanVolume: δP of the integration points for δF, by that of the law at the mean volume.
+class MeanVolumeTangent {
+ public:
+  MeanVolumeTangent(const MaterialBlock& block, int k) {
+    for (int q = 0; q < 4; ++q) {
+      F_[q] = block.cells[block.index(k, q)].deformation_gradient;
+      inverse_transposed_[q] = F_[q].inverse().transpose();
+      J_[q] = F_[q].determinant();
+      mean_J_ += 0.25 * J_[q];
+    }
+    for (int q = 0; q < 4; ++q) {
+      const MaterialPoint point = at_mean(block.cells[block.index(k, q)], q);
+      const Tensor R = point.rotation.tensor(), U = R.transpose() * point.deformation_gradient;
+      P_[q] = mean_J_ * R * to_tensor(point.stress) * U.inverse();
+      pull_[q] = P_[q].cwiseProduct(point.deformation_gradient).sum();
+      mean_pull_ += 0.25 * pull_[q];
+    }
+  }
+
+  // Integration point q with the gradient F̄ that its law sees.
+  MaterialPoint at_mean(MaterialPoint point, int q) const {
+    point.deformation_gradient *= scale(q);
+    return point;
+  }
+
+  // P_q = a P̄_q + ⅓ (J_q/J̄ p − p_q) F_q⁻ᵀ with a = (J̄/J_q)^⅓, p_q = P̄_q : F̄_q, p = Σ ¼ p_r. `law(q, δF̄)`: δP̄_q.
+  template <class Law>
+  CellTensors change(const CellTensors& dF, const Law& law) const {
+    double rate[4], mean_rate = 0, dpull[4], mean_dpull = 0;
+    for (int q = 0; q < 4; ++q) {
+      rate[q] = inverse_transposed_[q].cwiseProduct(dF[q]).sum();
+      mean_rate += 0.25 * J_[q] / mean_J_ * rate[q];
+    }
+    CellTensors dP;
+    for (int q = 0; q < 4; ++q) {
+      const double a = scale(q), da = (mean_rate - rate[q]) / 3;
+      const Tensor shared_dF = a * (dF[q] + da * F_[q]), of_law = law(q, shared_dF);
+      dpull[q] = of_law.cwiseProduct(a * F_[q]).sum() + P_[q].cwiseProduct(shared_dF).sum();
+      mean_dpull += 0.25 * dpull[q];
+      dP[q] = a * (of_law + da * P_[q]);
+    }
+    for (int q = 0; q < 4; ++q) {
+      const double ratio = J_[q] / mean_J_, more = ratio * mean_pull_ - pull_[q];
+      const double change = ratio * ((rate[q] - mean_rate) * mean_pull_ + mean_dpull) - dpull[q];
+      dP[q] += change / 3 * inverse_transposed_[q] -
+               more / 3 * inverse_transposed_[q] * dF[q].transpose() * inverse_transposed_[q];
+    }
+    return dP;
+  }
+
+ private:
+  double scale(int q) const { return std::cbrt(mean_J_ / J_[q]); }
+
+  CellTensors F_, inverse_transposed_, P_;
+  double J_[4], pull_[4], mean_J_ = 0, mean_pull_ = 0;
 };
 
 }  // namespace strut
