@@ -181,9 +181,10 @@ bool has_flowed(const MaterialBlock& block, int k) {
   return std::visit(at_any_place, block.material.law);
 }
 
-// True if the pressure of a cell is so large beside its flow stress that it is confined: in bending it is 0.33 of it,
-// in plane strain 0.58; in uniaxial strain 1.08 at a Poisson's ratio of 0.3, and grows without limit.
+// True if the pressure of a metal's cell is so large beside its flow stress that it is confined: in bending it is 0.33
+// of it, in plane strain 0.58; in uniaxial strain 1.08 at a Poisson's ratio of 0.3, and grows without limit.
 bool is_confined(const MaterialBlock& block, int k) {
+  if (std::visit([]<class L>(const L&) { return materials::opens_cracks<L>; }, block.material.law)) return false;
   constexpr double most = 0.8;
   Symmetric mean = Symmetric::Zero();
   double flow_stress = 0;
