@@ -77,14 +77,14 @@ inline double printed_flow_stress(const materials::SoftenedFlow& f, double strai
   return printed_flow_stress(f.cold, strain, rate) * (1 - std::pow(relative, s.exponent));
 }
 
-// ---- The stress that yields at the flow stress: von Mises', or by the yield surface of a foam -----------------------
+// ---- The stress that is compared with the flow stress: von Mises', or by the yield surface of a foam ----------------
 
 template <class L>
 double printed_equivalent_stress(const L&, const Symmetric& stress, const typename L::State&) {
   return von_mises(stress);
 }
 
-// Of Deshpande & Fleck (2000).
+// Deshpande & Fleck (2000).
 inline double printed_equivalent_stress(const materials::DeshpandeFleck& law, const Symmetric& stress,
                                         const materials::DeshpandeFleck::State&) {
   return std::hypot(von_mises(stress), law.alpha * trace(stress) / 3) / std::hypot(1, law.alpha / 3);

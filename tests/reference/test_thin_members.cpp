@@ -294,8 +294,8 @@ TEST(QuadraticCorrespondence, KeepsTheStiffnessOfThinStrutsAsIsTold) {
   }
 }
 
-// The same of a solid of K/G = 1000, which would be 140, 29 and 12 % too stiff in the mean with 2, 3 and 4 cells across
-// if the integration points of a cell did not share their volume (25, 11 and 7 % at most over this test's struts).
+// The same for a solid of K/G = 1000, which would be 140 and 29 % too stiff in the mean with 2 and 3 cells across if the
+// integration points of a cell did not share their volume (25 and 11 % at most over this test's struts).
 // `tests/reference/ritz --section round --poisson 0.4995`.
 TEST(QuadraticCorrespondence, DoesNotLockWhereTheVolumeHardlyChanges) {
   constexpr std::array<double, 6> exact = {0.304070, 0.304070, 0.453525, 0.698213, 0.698213, 0.777871};

@@ -202,7 +202,7 @@ def late_begin(deck, times):
 
 
 def early_end(deck, times):
-    """Words on a history that ends before its run shall; None if it does not, or nothing says when."""
+    """Words on a history that ends before the end of its run; None if it does not, or nothing says when."""
     ends = [value_at(deck.get(solver, "Final Time", default=""), 0) for solver in ("Solver", "Solver 2")]
     begin, end = initial_time(deck), max((end for end in ends if end is not None), default=times[-1])
     part = (times[-1] - begin) / (end - begin) if end > begin else 1

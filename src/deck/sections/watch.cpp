@@ -27,7 +27,7 @@ const RealKey balance_error(
      .fallback = "0.5",
      .meaning =
          "Limit of the error of the energy balance over the largest energy; a fifth of this where energy is created. "
-         "From 1 % on there is a warning, but not in the first ten looks."});
+         "From 1 % on there is a warning. The first ten checks lead to neither."});
 
 const RealKey smallest_step({.name = "Smallest Step",
                              .range = {.low = 0, .high = 1},

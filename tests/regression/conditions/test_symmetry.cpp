@@ -347,8 +347,8 @@ TEST(Symmetry, IsThatOfAPlaneThatMissesItsNodesByRoundOff) {
 }
 
 // Foams cut by a plane have cells at it that are filled at their far side only, and cells behind these into which small
-// ones at the plane were merged. The face of the former towards the plane is surface, and across the void, where no
-// cell is filled up to the plane, are no bonds.
+// ones at the plane were merged. The face of the former towards the plane is surface, and no bonds cross the void,
+// where no cell is filled up to the plane.
 TEST(Symmetry, IsThatOfCellsFilledAtTheirFarSide) {
   const RunFolder folder;
   const auto bonds = [&folder](double x_of_void, const std::string& formulation) {

@@ -245,6 +245,7 @@ TEST_F(Cells, AreNotThereUnlessAskedForAndChangeNothingElse) {
   for (const PointsAt at : {PointsAt::elements, PointsAt::nodes}) {
     const PointCloud plain = read(mesh, at, false), full = read(mesh, at);
     EXPECT_TRUE(plain.shapes.empty());
+    EXPECT_FALSE(plain.shared_nodes.empty());
     EXPECT_EQ(plain.shared_nodes, full.shared_nodes);  // cheap, and tell what is joined
     EXPECT_EQ(plain.positions, full.positions);
     EXPECT_EQ(plain.volumes, full.volumes);

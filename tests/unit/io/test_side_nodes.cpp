@@ -129,7 +129,7 @@ TEST(SideNodes, AreThoseOfTheBodyThatGoesOnBesideRandomCracks) {
         std::ptrdiff_t expected = 0;
         for (int copy = 0; copy < 64; ++copy)
           expected = std::max(expected, common(in_longer(a, copy % 8), in_longer(b, copy / 8)));
-        ASSERT_EQ(common(found[a], found[b]), expected) << a << " " << b << " of " << found.size();
+        EXPECT_EQ(common(found[a], found[b]), expected) << a << " " << b << " of " << found.size();
       }
     }
   }

@@ -234,7 +234,7 @@ std::pair<double, double> pressed(bool subcycling) {
     if (body.domain.reference(i)[0] < h) end.push_back(i);
   }
   const double rise = 10 * slow_step, time = 40 * slow_step;
-  conditions.add(BodyForce{end, {0}, Function::parse(text_of("1e8*min(1,t/", std::setprecision(17), rise, ")"))});
+  conditions.add(BodyForce{end, {0}, Function::parse(text_of(std::setprecision(17), load, "*min(1,t/", rise, ")"))});
   CentralDifference solver(body, conditions, {}, {.subcycling = subcycling}, 0);
   EXPECT_EQ(max_level(body) > 3, subcycling);
   double most = 0;

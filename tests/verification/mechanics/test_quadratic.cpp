@@ -214,7 +214,8 @@ TEST(SharedVolume, IsNotSharedWhereAPlaceIsNearlyFlat) {
   EXPECT_EQ(product(shared, shared), product(dF, dF));
 }
 
-// Of a law that follows the stretch: the difference of the energy of two motions, to the third order of the difference.
+// For a law that follows the stretch: the work of the forces over a small motion is the difference of the energy, to
+// the third order of the motion.
 TEST(SharedVolume, ForcesOfElastomersAreTheDerivativeOfTheirEnergy) {
   const Communicator world;
   const materials::Hyperelastic rubber{.bulk = 1e9, .terms = {{{1e6, 2}}}};
@@ -266,9 +267,10 @@ TEST(Quadratic, CellsBeginToFlowWithoutEnergy) {
             1e-3);  // 3e-4; 5e-3 with the forces of the old fit alone, 1.6e-2 with strains of the jump
 }
 
-// A fit of cells in flow, beside the correction of elastic ones, has forces of a uniform stress, which grow with the
-// pressure: below a pressed face a dense block of uneven cells lost five sixths of its force. So the fit changes in a
-// stretch that keeps the volume, but not in uniaxial strain, where the pressure is 1.08 times the flow stress.
+// Beside the correction, which is that of elastic fits, a fit of flow has forces under a uniform stress, which grow
+// with the pressure: below a pressed face a dense block of uneven cells lost five sixths of its force. So the fit
+// changes in a stretch that keeps the volume, but not in uniaxial strain, where the pressure is 1.08 times the flow
+// stress.
 TEST(Quadratic, CellsInConfinedFlowKeepTheirFit) {
   const Communicator world;
   const auto moduli = std::get<materials::Elastic>(elastic(110e9, 0.3));
