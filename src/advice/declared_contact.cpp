@@ -77,9 +77,8 @@ namespace {
 
 Vector bond(const Domain& domain, int i, int j) { return domain.reference(j) - domain.reference(i); }
 
-// Points of elements are layers of a lattice, or of two matching ones, up to that many spacings apart; nodes that no
-// element joins are at one place. Points whose elements are unknown need not be a lattice: without contact they touch
-// up to a larger distance.
+// Largest distances of points that touch, in spacings: of elements, which lie on one lattice or on two that match; of
+// nodes, which touch only at one place; and of points whose elements are unknown, which need no lattice.
 constexpr double gap_of_elements = 1.02, gap_of_nodes = 0.1, gap_of_points = 1.25;
 
 // For points of known elements.

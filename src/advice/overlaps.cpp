@@ -338,11 +338,10 @@ std::string overlaps(const Situation& situation) {
     constexpr double worth_telling = 0.1;
     const double overlap = domain.communicator.max(situation.scene.contact.overlap_at_start(one.first, one.second));
     if (one.first == one.second || overlap < worth_telling) continue;
-    text
-        << "blocks '" << domain.cloud.block_names[one.first] << "' and '" << domain.cloud.block_names[one.second]
-        << "' overlap by up to about " << std::setprecision(2) << overlap
-        << " spacings at the start: contact takes this for touching, without a force, so that together they are longer "
-           "than drawn by as much\n";
+    text << "blocks '" << domain.cloud.block_names[one.first] << "' and '" << domain.cloud.block_names[one.second]
+         << "' overlap by up to about " << std::setprecision(2) << overlap
+         << " spacings at the start: contact takes this for touching, without a force, so that together they stay "
+            "shorter by as much than one after the other\n";
   }
   return text.str();
 }

@@ -78,7 +78,8 @@ concept IsPrototype = requires(const T& prototype, std::vector<int> points, int 
 };
 
 // Stage::forces. With substeps, add_forces and add_work may be called at several times of a step, for the mean. The
-// estimate of the critical time step does not include it: if it is stiff, the deck needs a smaller Safety Factor.
+// estimate of the critical time step does not include these forces: if they are stiff, the deck needs a smaller Safety
+// Factor.
 //   add_forces  adds `part` of its force density at time t
 //   add_work    adds the work of these forces, once velocities are final; impulse_time is the time for which they act
 //   on_some     its part for some of its points

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <span>
 #include <string>
@@ -102,19 +103,19 @@ std::vector<std::uint8_t> moved_within(const Conditions& changing, const Body& b
   if (changing.count() == 0) return marks;
   marks.assign(body.owned(), 0);
   for (int n = 1; n <= times; ++n) {
-    const double now = t + n * dt / times;
+    const double part = dt / times, now = t + n * part;
     changing.visit([&](const AddsForces auto& one) {
       for (const Function& value : one.values_at_points()) {
-        for (const int i : one.points) marks[i] |= value(body.domain.reference(i), now) != 0 ? 1 : 0;
+        for (const int i : one.points) marks[i] |= value.evaluate(body.domain.reference(i), now) != 0 ? 1 : 0;
       }
     });
-    std::vector<Vector> velocities = body.velocity;
     changing.visit([&](const PrescribedMotion& one) {
       constexpr double round_off = 1e-9;  // of a slope of positions
-      one.predict_velocities(now, dt / times, body, velocities);
       for (const int i : one.points) {
-        const Vector change = velocities[i] - body.velocity[i];
-        marks[i] |= change.norm() > round_off * velocities[i].norm() ? 1 : 0;
+        const auto at = [&](double time) { return one.value.evaluate(body.domain.reference(i), time); };
+        const double v = one.is_velocity ? at(now - 0.5 * part) : (at(now) - at(now - part)) / part;
+        for (const int c : one.components)
+          marks[i] |= std::abs(v - body.velocity[i][c]) > round_off * std::abs(v) ? 1 : 0;
       }
     });
   }

@@ -74,8 +74,8 @@ std::pair<bool, std::vector<std::size_t>> extent_of(const Conditions& load, cons
 Conditions loads_on(const Conditions& loads, const MovingPoints& some);
 // Collective. The loads and prescribed motions of parts of bodies that change with time.
 Conditions changing_on_parts(const Conditions& conditions, const Body& body);
-// Marks of owned points that these move within the step from t over dt (s), otherwise than at their present velocities,
-// at one of so many times; empty if there are none.
+// Marks the owned points that these move otherwise than at their present velocities, at any of so many times within the
+// step from t over dt (s); empty if there are no such conditions.
 std::vector<std::uint8_t> moved_within(const Conditions& changing, const Body& body, double t, double dt, int times);
 
 // Adds `part` of the forces of conditions at time t (s) to the force density.

@@ -235,7 +235,7 @@ bool StartState::takes_of_steps(const std::string& name) const {
   if (changes_.same_conditions) return true;
   const std::string column = name.substr(name.find(" > ") == std::string::npos ? 0 : name.find(" > ") + 3);
   return !name.starts_with("tool ") && !column.starts_with("tool_") && !column.starts_with("impulse_") &&
-         !column.starts_with("last_");
+         !column.starts_with("last_") && !column.starts_with("load_");
 }
 
 std::string StartState::overlaps(const contact::Contact& contact, const Body& body) const {

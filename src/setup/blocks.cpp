@@ -43,7 +43,9 @@ void check_blocks(const deck::Deck& deck, const PointCloud& cloud, const std::ve
       problems.add(
           "Blocks > " + section.name + " > Block Names",
           "the mesh has no block '" + name + "'" + did_you_mean(name, valid) + "; it has " + joined(valid) +
-              (has_blank ? " (blanks separate names here: one with a blank is meant by 'all' or 'default')" : ""));
+              (has_blank
+                   ? " (blanks separate names here: only 'all' or 'default' can mean a block whose name has a blank)"
+                   : ""));
     }
   }
   for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {

@@ -88,8 +88,8 @@ class PlaneSearch {
       if (bonds_[cloud_.blocks[i]].body == plane_.body) visit(i);
     }
   }
-  // A node's in spacings, an element's in units of the extent of its cell. A partly filled element at the plane stays
-  // one if it is filled at its far side only.
+  // A node's in spacings, an element's in units of the extent of its cell. A partly filled element
+  // that has a node on the plane counts as at it, even if only its far side is filled.
   double distance(std::size_t i) const {
     if (cloud_.at == PointsAt::nodes) return std::abs(plane_.distance(cloud_.positions[i])) / cloud_.spacings[i];
     const double in_extents = distance_in_extents(cloud_, plane_, i);
@@ -112,7 +112,7 @@ class PlaneSearch {
     if (cloud_.shapes.empty() || cloud_.at == PointsAt::nodes) return;
     if (here < farthest_of_nearest) look_for_nodes(i, found);
   }
-  // False for a partly filled element behind those at the plane that a small one at it was merged into.
+  // False for a partly filled element that is not at the plane itself, but into which a small one at it was merged.
   bool is_at_plane(std::size_t i) const {
     return cloud_.at == PointsAt::nodes || is_whole(cloud_, i) || has_node_on(plane_, cloud_, i);
   }
@@ -322,7 +322,7 @@ std::vector<CellFace> faces_on(const Mirror& plane, const std::vector<BlockBonds
   return faces;
 }
 
-// Collective. Those of all ranks; not many, as they are of one side.
+// Collective. Those of all ranks; not many, as they are of one plane or side.
 template <class One>
 std::vector<One> of_all_ranks(const std::vector<One>& mine, const Communicator& communicator) {
   std::vector<One> leaving;
@@ -374,6 +374,8 @@ void mark_void(const Mirror& plane, const std::vector<BlockBonds>& bonds, const 
   over_nodes([&](std::size_t i, std::int64_t node) {
     if (is_whole(cloud, i) || distance_in_extents(cloud, plane, i) <= farthest_of_nearest) reached.push_back(node);
   });
+  std::ranges::sort(reached);
+  reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
   const std::vector<std::int64_t> all = of_all_ranks(reached, communicator);
   const std::set<std::int64_t> filled(all.begin(), all.end());
   over_nodes([&](std::size_t, std::int64_t& node) {

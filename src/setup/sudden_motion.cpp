@@ -260,7 +260,8 @@ struct OverLoadSteps {
 
 // The integral from one time to another as the run finds it, and by sixteen times as many samples, if this differs by
 // more than `reported` of all that the value does: it then has pulses that few samples miss, or turns more often than
-// is looked at. Most values need no `checks` at so many samples, as midpoints, which are quick, find the same.
+// is looked at. `checks`: how many more integrals may take so many samples. Most take none, as a quick sum over
+// midpoints finds the same.
 std::array<double, 2> two_integrals(const OfTime& of_time, double from, double to, int& checks) {
   constexpr double reported = 0.005;
   constexpr int parts = 16, midpoints = 512;

@@ -233,7 +233,7 @@ std::vector<Vector> CentralDifference::velocities_now() {
   };
   Snapshot tools;
   pass_tools(Archive::saving_to(tools));
-  loads_.add({time_, dt(), dt()}, body_);
+  loads_.add({time_, dt(), dt(), time_}, body_);  // none after this time, which may be the last
   for_each_point(0, body_.owned(), [&](int i) { kick(i, dt()); });
   ReactionImpulses impulses = reactions_.none();
   ImpulseWork work;

@@ -67,8 +67,8 @@ void Loads::add(const Moment& moment, Body& body) {
   if (moment.level == 0 && highest_ > 0) {
     bool changes = false;
     for (Load& load : loads_) {
-      load.is_whole = load.is_on_wholes && move_rigidly(body, load.blocks);
-      changes |= load.is_whole != load.was_whole;
+      const bool whole = load.is_on_wholes && move_rigidly(body, load.blocks);
+      changes |= std::exchange(load.is_whole, whole) != whole;
     }
     if (changes) regroup();
   }
@@ -94,14 +94,17 @@ void Loads::end_whole_step() {
 }
 
 void Loads::serialize(Archive& archive, const Body& body) {
+  if (loads_.empty()) return;
   for (std::size_t n = 0; n < loads_.size(); ++n)
     archive.number("load_" + std::to_string(n) + "_in_whole_steps", loads_[n].was_whole);
   bool differ = body.domain.communicator.any(before_.has_value());
+  Levels before = before_.value_or(Levels());
+  before.resize(body.owned(), 0);
   archive.number("load_levels_differ", differ);
-  if (!differ) return before_.reset();
-  if (!before_) before_.emplace();
-  before_->resize(body.owned(), 0);
-  archive.field("load_levels_before", 1, [&](std::size_t i, int) -> std::uint8_t& { return (*before_)[i]; });
+  archive.field("load_levels_before", 1, [&](std::size_t i, int) -> std::uint8_t& { return before[i]; });
+  if (!archive.loading()) return;
+  before_.reset();
+  if (differ) before_ = std::move(before);
 }
 
 }  // namespace strut

@@ -1,8 +1,8 @@
 // The loads of explicit steps, with the times and the parts of impulses for which they act on points with substeps.
 //
-// A load acts in its points' own steps: once a whole step, its impulse would strike stiff points by so many times the
-// stress that it causes as they have substeps. A load on whole bodies that move rigidly, such as the weight of one that
-// falls, acts once a whole step, so that they stay undeformed to the last bit.
+// A load acts in its points' own steps. If it acted once a whole step, the stress of stiff points would be too large by
+// as many times as they have substeps. A load on whole bodies that move rigidly, such as the weight of one that falls,
+// acts once a whole step, so that they stay undeformed to the last bit.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ class Loads {
   // Collective. The levels in the next whole step, and in the last one if they were others. `highest`: of all points.
   void take_levels(const Body& body, const std::optional<Levels>& before, const Levels& after, int highest);
 
-  // A time of impulses, s: whole steps before and after it, or for a time of a higher level the present one twice.
+  // The time of an impulse and the whole steps before and after it, s. At a time between whole steps both are the
+  // present step.
   struct Moment {
     double time, before, after;
     double end = std::numeric_limits<double>::infinity();  // no load acts later

@@ -10,7 +10,7 @@
 namespace strut::io::checkpoint_layout {
 
 // Version of the layout below: increase it with every change of the file's content.
-constexpr int version = 14;
+constexpr int version = 15;
 
 inline std::string name_of_ids(std::size_t group) { return "g" + std::to_string(group) + "_id"; }
 inline std::string name_of(std::size_t group, const std::string& column) {

@@ -44,7 +44,7 @@ struct PointTangent {
 // alone, δF = R (δΩ U + δU) gives
 //   [(tr U) I − U] δω = axial(Rᵀ δF − (Rᵀ δF)ᵀ),  δΩ = [δω×],
 //   δP = R [ δΩ Q + tr(U⁻¹ δU) Q + J (∂σ/∂U : δU) U⁻¹ − Q δU U⁻¹ ],  Q = J σ U⁻¹.
-// where the points of a cell share their volume (MeanVolume), σ, U and F are those of the mean volume.
+// Where the points of a cell share their volume (MeanVolume), σ, U and F are those of the mean volume.
 // It is zero for ordinary and failed points. By quadratic correspondence it is the mean over the cell; after the points
 // follow the integration points of the cells, that of block.cells[p] at owned + block.first_integration_point + p.
 std::vector<PointTangent> point_tangents(const Body& body, const Committed& start, double dt);
