@@ -200,7 +200,8 @@ bool is_confined(const MaterialBlock& block, int k) {
 bool begin_flow(Body& body, MaterialBlock& block, int k) {
   const int i = block.points[k];
   if (block.flowed[k] || !body.fits->carries_stress(i) || !has_flowed(block, k)) return false;
-  block.flowed[k] = is_confined(block, k) ? 2 : 1;
+  const bool is_corrected = !body.domain.cloud.shapes.empty();  // by μ, which takes known surfaces
+  block.flowed[k] = is_corrected && is_confined(block, k) ? 2 : 1;
   if (block.flowed[k] == 2) return true;
   body.fits->refit_in_flow(body, i);
   for (int q = 0; q < 4; ++q) {

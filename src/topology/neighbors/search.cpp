@@ -58,7 +58,8 @@ class SharedNodes {
     const int body = bonds_[cloud_.blocks[i]].body;
     const bool is_mirrored = !mirrored_.images.of_body(body).empty();
     for (const std::int64_t shared_node : cloud_.shared_nodes[i]) {
-      const std::int64_t number = shared_node & ((std::int64_t{1} << Images::bits) - 1);
+      const int bits = mirrored_.periods.empty() && !is_mirrored ? first_plane_bit : Images::bits;
+      const std::int64_t number = shared_node & ((std::int64_t{1} << bits) - 1);
       if (!mirrored_.periods.empty()) {
         visit(Images::id(number, cell_of(shared_node >> first_plane_bit, image)));
       } else if (!is_mirrored) {
