@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/math/lanes.hpp"
 #include "base/math/small_tensors.hpp"
@@ -89,51 +90,61 @@ class MeanVolume {
 // A tensor at each integration point of a cell.
 using CellTensors = std::array<Tensor, 4>;
 
+// The deformation gradients at the integration points of a cell, and what follows from them.
+struct CellGradients {
+  CellTensors F, inverse_transposed;
+  std::array<double, 4> J;
+  double volume = 0;  // Σ J
+
+  CellGradients(const MaterialBlock& block, int k) {
+    for (int q = 0; q < 4; ++q) {
+      F[q] = block.cells[block.index(k, q)].deformation_gradient;
+      inverse_transposed[q] = F[q].inverse().transpose();
+      J[q] = F[q].determinant();
+      volume += J[q];
+    }
+  }
+
+  // For δF the rates of the volume, F⁻ᵀ : δF, and their mean, weighted with J.
+  std::pair<std::array<double, 4>, double> volume_rates(const CellTensors& dF) const {
+    std::pair<std::array<double, 4>, double> found{};
+    for (int q = 0; q < 4; ++q) {
+      found.first[q] = inverse_transposed[q].cwiseProduct(dF[q]).sum();
+      found.second += J[q] * found.first[q] / volume;
+    }
+    return found;
+  }
+};
+
 // The same for δF, and its adjoint for δP, at fixed deformation: for a tangent.
 class SharedVolume {
  public:
-  SharedVolume(const MaterialBlock& block, int k) {
-    for (int q = 0; q < 4; ++q) {
-      F_[q] = block.cells[block.index(k, q)].deformation_gradient;
-      inverse_transposed_[q] = F_[q].inverse().transpose();
-      J_[q] = F_[q].determinant();
-      volume_ += J_[q];
-    }
-    const auto [least, most] = std::minmax_element(J_, J_ + 4);
-    shared_ = 1 - std::min(1.0, resisting_part(block) * kept_part(*least, *most, 0.25 * volume_));
+  SharedVolume(const MaterialBlock& block, int k) : at_(block, k) {
+    const auto [least, most] = std::ranges::minmax(at_.J);
+    shared_ = 1 - std::min(1.0, resisting_part(block) * kept_part(least, most, 0.25 * at_.volume));
   }
   void share_gradients(CellTensors& dF) const {
-    double rate[4], mean = 0;  // of the volume: F⁻ᵀ : δF
-    for (int q = 0; q < 4; ++q) {
-      rate[q] = inverse_transposed_[q].cwiseProduct(dF[q]).sum();
-      mean += J_[q] * rate[q] / volume_;
-    }
-    for (int q = 0; q < 4; ++q) dF[q] += shared_ / 3 * (mean - rate[q]) * F_[q];
+    const auto [rate, mean] = at_.volume_rates(dF);
+    for (int q = 0; q < 4; ++q) dF[q] += shared_ / 3 * (mean - rate[q]) * at_.F[q];
   }
   void share_stresses(CellTensors& dP) const {
     double pull[4], mean = 0;  // δP : F
     for (int q = 0; q < 4; ++q) {
-      pull[q] = dP[q].cwiseProduct(F_[q]).sum();
-      mean += pull[q] / volume_;
+      pull[q] = dP[q].cwiseProduct(at_.F[q]).sum();
+      mean += pull[q] / at_.volume;
     }
-    for (int q = 0; q < 4; ++q) dP[q] += shared_ / 3 * (J_[q] * mean - pull[q]) * inverse_transposed_[q];
+    for (int q = 0; q < 4; ++q) dP[q] += shared_ / 3 * (at_.J[q] * mean - pull[q]) * at_.inverse_transposed[q];
   }
 
  private:
-  CellTensors F_, inverse_transposed_;
-  double J_[4], volume_ = 0, shared_ = 1;
+  CellGradients at_;
+  double shared_ = 1;
 };
 
 // The derivative of MeanVolume: δP of the integration points for δF, by that of the law at the mean volume.
 class MeanVolumeTangent {
  public:
-  MeanVolumeTangent(const MaterialBlock& block, int k) {
-    for (int q = 0; q < 4; ++q) {
-      F_[q] = block.cells[block.index(k, q)].deformation_gradient;
-      inverse_transposed_[q] = F_[q].inverse().transpose();
-      J_[q] = F_[q].determinant();
-      mean_J_ += 0.25 * J_[q];
-    }
+  MeanVolumeTangent(const MaterialBlock& block, int k) : at_(block, k), mean_J_(0.25 * at_.volume) {
     for (int q = 0; q < 4; ++q) {
       const MaterialPoint point = at_mean(block.cells[block.index(k, q)], q);
       const Tensor R = point.rotation.tensor(), U = R.transpose() * point.deformation_gradient;
@@ -152,33 +163,31 @@ class MeanVolumeTangent {
   // P_q = a P̄_q + ⅓ (J_q/J̄ p − p_q) F_q⁻ᵀ with a = (J̄/J_q)^⅓, p_q = P̄_q : F̄_q, p = Σ ¼ p_r. `law(q, δF̄)`: δP̄_q.
   template <class Law>
   CellTensors change(const CellTensors& dF, const Law& law) const {
-    double rate[4], mean_rate = 0, dpull[4], mean_dpull = 0;
-    for (int q = 0; q < 4; ++q) {
-      rate[q] = inverse_transposed_[q].cwiseProduct(dF[q]).sum();
-      mean_rate += 0.25 * J_[q] / mean_J_ * rate[q];
-    }
+    const auto [rate, mean_rate] = at_.volume_rates(dF);
+    double dpull[4], mean_dpull = 0;
     CellTensors dP;
     for (int q = 0; q < 4; ++q) {
       const double a = scale(q), da = (mean_rate - rate[q]) / 3;
-      const Tensor shared_dF = a * (dF[q] + da * F_[q]), of_law = law(q, shared_dF);
-      dpull[q] = of_law.cwiseProduct(a * F_[q]).sum() + P_[q].cwiseProduct(shared_dF).sum();
+      const Tensor shared_dF = a * (dF[q] + da * at_.F[q]), of_law = law(q, shared_dF);
+      dpull[q] = of_law.cwiseProduct(a * at_.F[q]).sum() + P_[q].cwiseProduct(shared_dF).sum();
       mean_dpull += 0.25 * dpull[q];
       dP[q] = a * (of_law + da * P_[q]);
     }
     for (int q = 0; q < 4; ++q) {
-      const double ratio = J_[q] / mean_J_, more = ratio * mean_pull_ - pull_[q];
+      const double ratio = at_.J[q] / mean_J_, more = ratio * mean_pull_ - pull_[q];
       const double change = ratio * ((rate[q] - mean_rate) * mean_pull_ + mean_dpull) - dpull[q];
-      dP[q] += change / 3 * inverse_transposed_[q] -
-               more / 3 * inverse_transposed_[q] * dF[q].transpose() * inverse_transposed_[q];
+      const Tensor& inverse = at_.inverse_transposed[q];
+      dP[q] += change / 3 * inverse - more / 3 * inverse * dF[q].transpose() * inverse;
     }
     return dP;
   }
 
  private:
-  double scale(int q) const { return std::cbrt(mean_J_ / J_[q]); }
+  double scale(int q) const { return std::cbrt(mean_J_ / at_.J[q]); }
 
-  CellTensors F_, inverse_transposed_, P_;
-  double J_[4], pull_[4], mean_J_ = 0, mean_pull_ = 0;
+  CellGradients at_;
+  CellTensors P_;
+  double pull_[4], mean_J_, mean_pull_ = 0;
 };
 
 }  // namespace strut
